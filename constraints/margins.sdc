@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Margins of a sign-off, read behind dtof.sdc: cells 5 % slower where that hurts and 5 % faster where that does, more
-# uncertainty, and ports that are neither driven nor loaded ideally. `slew` (ns) and `load` (the library's unit) are the
-# flow's: the edge of an inverter with a fan-out of four, and ten inverters' inputs.
+# Margins of a sign-off, read after dtof.sdc: cells 5 % slower where late paths count and 5 % faster where early paths count, more
+# uncertainty, and ports with a real driver and load. The flow sets `slew` (ns), the transition of an inverter with a fan-out of four, and
+# `load` (the library's unit), ten inverter inputs.
 set margin_uncertainty 0.15
 
 set_clock_uncertainty -setup $margin_uncertainty [get_clocks clk]

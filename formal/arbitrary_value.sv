@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value that may be different in every clock. A proof turns each bit into an input of its own.
+// A value that may differ in every clock. The proof makes each bit a free input.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The assertions of the RTL in the composition in which they must hold: dtof_array with everything free at its ports
-// but the contract of the TDC stream.
+// Proves the assertions of the RTL in the composition in which they must hold: dtof_array with free ports, except for the contract of
+// the TDC stream.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD

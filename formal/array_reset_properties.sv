@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_array_reset: behind an abort the array is in reset for eight clocks and rests for three, from any state and however often
-// aborts come; without one nothing happens; a tester has the reset at a pin.
+// Proves of dtof_array_reset: after an abort the array is in reset for eight clocks and its clock is stopped for three more, from any
+// state and for any number of aborts; without an abort no output changes; scan_mode_i connects the reset to the pin.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -32,7 +32,7 @@ module array_reset_properties (
       .array_rst_no(array_rst_n)
   );
 
-  // Clocks since the last abort, at most 15; 15 if there was none.
+  // Clocks since the last abort, at most 15; 15 without an abort.
   logic [3:0] since_q;
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_axi_lite_to_apb: every read and every write goes to the APB once, in order, with its address and data, and its response comes
-// back once, in order, with what the APB answered; APB and responses keep their protocols, and neither kind starves. One
-// arbitrary read and one arbitrary write of every eight are watched, of the data one arbitrary bit.
+// Proves of dtof_axi_lite_to_apb: every read and every write is on the APB once, in order, with its address and data; its response comes
+// back once, in order, with the APB's answer; APB and responses follow their protocols, and both reads and writes make progress. The
+// harness watches one arbitrary read and one arbitrary write of every eight, and one arbitrary bit of the data.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -72,7 +72,7 @@ module axi_lite_to_apb_properties #(
       .pslverr_i      (pslverr_i)
   );
 
-  // Each channel and the APB count what passes them, modulo 8; at most three of a kind are under way.
+  // Counters of transfers, per channel and on the APB, modulo 8; at most three of a kind are in progress.
   (* anyconst *) logic [2:0] watched;
   (* anyconst *) logic [4:0] watched_bit;
   logic [2:0] aw_q, w_q, ar_q, apb_writes_q, apb_reads_q, b_q, r_q;
@@ -82,9 +82,9 @@ module axi_lite_to_apb_properties #(
   logic ends, held_q, pwrite_q, pwdata_bit_q;
   logic bvalid_q, rvalid_q, rbit_q;
   logic [1:0] bresp_q, rresp_q;
-  logic responds_q;        // in the last clock
-  logic [3:0] stream_q;    // clocks of reads alone, without a pause of master or APB
-  logic [3:0] read_wait_q, write_wait_q;  // clocks in which nothing but this module keeps them waiting
+  logic responds_q;        // a response was taken in the last clock
+  logic [3:0] stream_q;    // clocks with reads only, without a pause of master or APB
+  logic [3:0] read_wait_q, write_wait_q;  // clocks in which only this module delays a read, or a write
 
   assign ends = psel && penable && pready_i;
 
@@ -139,7 +139,7 @@ module axi_lite_to_apb_properties #(
   assign reads = ar_q - r_q;
   assign writes = apb_writes_q - b_q;
 
-  // The APB
+  // APB
   `PROVE(a_enable_in_second_clock, !rst_n || penable == (psel && held_q))
   `PROVE(a_rests, !(rst_n && held_q) || (psel && {pwrite, paddr, pstrb, pwdata[watched_bit]} == {pwrite_q, paddr_q, pstrb_q, pwdata_bit_q}))
   `PROVE(a_read, !(rst_n && psel && !pwrite) || (apb_reads_q != ar_q && (apb_reads_q != watched || (paddr == ar_address_q && pstrb == '0))))
@@ -152,7 +152,7 @@ module axi_lite_to_apb_properties #(
   `PROVE(a_read_response_stays, !(rst_n && rvalid_q) || (rvalid && rresp == rresp_q && rdata[watched_bit] == rbit_q))
   `PROVE(a_write_response_stays, !(rst_n && bvalid_q) || (bvalid && bresp == bresp_q))
   `PROVE(a_few, !rst_n || (reads <= 3'd3 && writes <= 3'd2))
-  // A request waits for its own transfer of two clocks and at most one of the other kind.
+  // A request is delayed by its own transfer of two clocks and at most one transfer of the other kind.
   `PROVE(a_reads_go_on, !rst_n || read_wait_q <= 4'd7)
   `PROVE(a_writes_go_on, !rst_n || write_wait_q <= 4'd7)
   `PROVE(a_a_read_every_two_clocks, !(rst_n && stream_q == 4'd8) || rvalid || responds_q)

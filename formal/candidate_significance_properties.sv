@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The significance of a pair whose sums around it are constants: docs/reference/poolpointer.md, Significance, step by step on
-// integers. Another pair, which is not better, comes after it; what was in the registers before is free.
+// Proves of dtof_candidate_significance: the significance of a pair follows docs/reference/poolpointer.md, Significance, computed step by
+// step on integers. The sums around the pair are constants. A pair that is not better comes after it; the initial registers are free.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -16,7 +16,7 @@ module candidate_significance_properties #(
 );
 
   (* anyconst *) logic [2*SUM_WIDTH-1:0] ahead, behind;
-  (* anyconst *) logic [4:0] pair;  // + 1
+  (* anyconst *) logic [4:0] pair;  // number of the pair, + 1
   (* anyconst *) logic [SUM_WIDTH-1:0] peak;
   (* anyconst *) logic was_used;
   (* anyconst *) logic [2:0] missing;

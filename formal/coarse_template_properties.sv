@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entry and hidden bit belong to the bin of the clock before; no bin from the eighth on is hidden.
+// Proves of dtof_coarse_template: entry and hidden bit belong to the bin of the clock before; no bin from bin 7 on is hidden.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -15,7 +15,7 @@ module coarse_template_properties (
   logic [7:0] entry, wanted_q;
   logic hidden;
   logic of_bin_q;
-  logic checking = 1'b0;  // a clock has passed
+  logic checking = 1'b0;  // one clock has passed
 
   always_ff @(posedge clk_i) begin
     checking <= 1'b1;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The control of dtof_array as a whole: controller, dtof_pass_sequencer, dtof_pixel_sequencer, dtof_scan_sequencer, dtof_result_output. The
-// columns' data takes no part in it. Free: start, number of acquisitions, pauses of the TDC, back-pressure.
+// Proves the control of dtof_array as a whole: dtof_controller, dtof_pass_sequencer, dtof_pixel_sequencer, dtof_scan_sequencer,
+// dtof_result_output. The columns' data have no part in it. Free: start, number of acquisitions, pauses of the TDC, back-pressure.
 //
-// Every frame ends if source and sink take what is offered, because the clocks of a stay in a state in which the array
-// neither offers anything (ready to the source, a beat to the sink) nor finishes an acquisition are bounded
-// (a_no_state_lasts), states follow each other as the diagram says, and a frame's passes, rows and acquisitions are
-// counted.
+// Every frame ends if source and sink accept all offers. This follows from three facts: the number of clocks is bounded in which the
+// array stays in a state without an offer (ready to the source, a beat to the sink) and without the end of an acquisition
+// (a_no_state_lasts); the states follow each other as in the diagram; and passes, rows and acquisitions of a frame are counted.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -22,7 +21,7 @@ module control_properties #(
     parameter int SKIP_RESET = 0,
     parameter int ACQ_WIDTH = 2,
     parameter int LONGEST_STAY = 16,
-    parameter int RAW = 0,  // 1: frames may be raw
+    parameter int RAW = 0,  // 1: frames may be raw frames
     localparam int BINS = 1 << BIN_WIDTH,
     localparam int RESET_BINS = (POINTER != 0 && COARSE_PASSES == 0) ? 1 : BINS,
     localparam int FINAL_BINS = (POINTER != 0) ? 1 : BINS,
@@ -190,7 +189,7 @@ module control_properties #(
       .tlast_o   (tlast)
   );
 
-  // What the array samples with a start.
+  // Settings that the array samples with start_i.
   logic [31:0] scans;
   always_ff @(posedge clk_i) begin
     if (start_i && !busy) begin
@@ -201,7 +200,7 @@ module control_properties #(
   end
   assign scans = raw_q ? (32'(raw_last_q) - 32'(raw_first_q) + 1) << BIN_WIDTH : PIXELS;
 
-  // A frame, followed at one arbitrary address.
+  // A frame, observed at one arbitrary address.
   localparam int COUNT_WIDTH = 4;
   (* anyconst *) logic [ROW_WIDTH-1:0] watched_pixel;
   (* anyconst *) logic [BIN_WIDTH-1:0] watched_bin;
@@ -209,7 +208,7 @@ module control_properties #(
   logic [2:0] state_q;
   logic [ACQ_WIDTH-1:0] acq_num_q, acquisitions_q;
   logic [PASS_WIDTH:0] passes_q;
-  logic [ROW_WIDTH+BIN_WIDTH:0] rows_q;  // scans of M4: of a raw frame one a bin of a row
+  logic [ROW_WIDTH+BIN_WIDTH:0] rows_q;  // scans in M4; a raw frame has one scan per bin of a row
   logic [COUNT_WIDTH-1:0] clears_q, reads_q, clears, reads, beats_q;
   logic [1:0] final_reads_q;
   logic [4:0] stay_q;
@@ -218,7 +217,7 @@ module control_properties #(
 
   assign accepted = checking && ready && tdc_valid_i;
   assign offers = ready || tvalid;
-  // Since the state was entered. The last clear and read fall into the state's last clocks.
+  // Counts since the state was entered. The last clear and the last read are in the state's last clocks.
   assign clears = clears_q
       + COUNT_WIDTH'(clear_s1 && pixel_s1 == watched_pixel && bin_s1 == watched_bin);
   assign reads = reads_q + COUNT_WIDTH'(scan_s0 && pixel_s0 == watched_pixel && bin_s0 == watched_bin);

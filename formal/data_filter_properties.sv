@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which timestamps each read-out counts and in which bin: docs/reference/readouts.md's sentences, in 32-bit integers.
+// Proves of dtof_data_filter: the timestamps that each read-out counts, and their bins, follow docs/reference/readouts.md, computed in
+// 32-bit integers.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -68,7 +69,7 @@ module data_filter_properties #(
     has_start = 1'b0;
     case (READOUT)
       dtof_pkg::READOUT_SIFH:
-      if (final_pass) begin  // lowest is TH-
+      if (final_pass) begin  // lowest is TH- of Eq. 2.4
         lowest = peak * (1 << (NP - NB)) - (1 << (NB - 1));
         if (WINDOW_CENTRED != 0 && NP > NB) lowest = lowest + (1 << (NP - NB - 1)) - 1;
         expected_keep = (lowest < x) && (x <= lowest + (1 << NB));
@@ -106,7 +107,7 @@ module data_filter_properties #(
         expected_bin = x & ((1 << NB) - 1);
       end
       dtof_pkg::READOUT_HISTOGRAM: expected_bin = x;
-      default: expected_bin = x >>> (NP - NB);  // hisPointer's measurement 1
+      default: expected_bin = x >>> (NP - NB);  // measurement 1 of hisPointer
     endcase
   end
 

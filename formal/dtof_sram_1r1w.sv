@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two-port SRAM for proofs: contents are arbitrary until written, and reading an address in the clock in which it is
-// written returns anything.
+// Two-port SRAM for proofs: contents are arbitrary until written; a read of an address in the clock in which it is written returns an
+// arbitrary value.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Single-port SRAM for proofs: contents are arbitrary until written, and so is the read data after a write.
+// Single-port SRAM for proofs: contents are arbitrary until written; read data are arbitrary after a write.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The logarithm against its definition: the power of two below x, and the eighths of the way to the next one.
+// Proves of dtof_eighth_octaves: the logarithm follows its definition: the power of two below x, and the eighths of the way to the
+// next power.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD

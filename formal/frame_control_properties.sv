@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_frame_control: a frame begins if and only if it may, and ends with done_i or abort_i. Each refusal raises its output. Legality,
-// continuous mode and the counters follow integration.md, with start and abort at any time.
+// Proves of dtof_frame_control: a frame begins if and only if the conditions are met, and ends with done_i or abort_i. Each refusal
+// raises its output. Legality, continuous mode and the counters follow docs/user/integration.md. start_i and abort_i may come at any time.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -72,9 +72,9 @@ module frame_control_properties #(
       .frame_cycles_o    (frame_cycles)
   );
 
-  // A frame is under way, and whether the last clock ended one that another follows.
+  // under_way_q: a frame is in progress; follows_q: the last clock ended a frame and a continuous frame follows.
   logic under_way_q, follows_q, legal, may;
-  logic [3:0] frames_q;  // modulo 16
+  logic [3:0] frames_q;  // number of frames, modulo 16
 
   assign legal = (HAS_SCHEDULE == 0 || (coarse_end_i <= track_end_i && track_end_i <= acquisitions_i))
       && 32'(release_i) >= 1 && 32'(release_i) <= MOST_RELEASE

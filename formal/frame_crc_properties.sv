@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_frame_crc: the checksum of a frame is that of its words, bit by bit with the polynomial in its other order, from the first word
-// to the last; it changes with a frame's last word alone, and not with that of a frame that was cut off.
+// Proves of dtof_frame_crc: the checksum is that of all words of a frame, computed bit by bit with the polynomial in the other bit order;
+// it changes only with the last word of a frame that was not aborted.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -40,14 +40,14 @@ module frame_crc_properties #(
       .crc_o    (crc)
   );
 
-  // The last word that was taken, and whether that was in the last clock.
+  // The last word that was taken, and whether it was taken in the last clock.
   logic taken_q, first_q, ends_q;
   logic [WIDTH-1:0] word_q;
 
-  // The highest bit first: x^31 of the remainder is bit 31, a bit of the word enters there.
+  // Highest bit first: bit 31 is x^31 of the remainder; a bit of the word enters there.
   logic [32*WIDTH+31:0] remainders;
   logic [31:0] remainder_q, expected_q, mirrored;
-  logic [1:0] frames_q;  // that came whole, modulo 4
+  logic [1:0] frames_q;  // frames that were not aborted, modulo 4
   genvar i;
   generate
     assign remainders[31:0] = first_q ? {32{1'b1}} : remainder_q;

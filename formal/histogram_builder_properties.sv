@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_histogram_builder, driven by dtof_pixel_sequencer, is a memory of counters of which a pixel's first full one ends the pixel's
-// counting (FREEZE = 0: which saturate): all bins of one arbitrary pixel are followed through passes, scans and clears.
-// Pixels and timestamps are counted here from the handshake alone.
+// Proves of dtof_histogram_builder, driven by dtof_pixel_sequencer: it is a memory of counters. With FREEZE = 1 the first full counter of
+// a pixel ends the pixel's counting, with FREEZE = 0 full counters stay full. The harness follows all bins of one arbitrary pixel
+// through passes, scans and clears, and counts pixels and timestamps from the handshake alone.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -20,7 +20,7 @@ module histogram_builder_properties #(
 ) (
     input logic                 clk_i,
     input logic                 begin_i,       // a pass begins
-    input logic                 more_i,        // after an acquisition, and as a pass begins: another one follows
+    input logic                 more_i,        // at the end of an acquisition and at the begin of a pass: another acquisition follows
     input logic                 tdc_valid_i,
     input logic                 keep_i,        // the data filter keeps the timestamp
     input logic [BIN_WIDTH-1:0] bin_i,
@@ -38,8 +38,8 @@ module histogram_builder_properties #(
     checking <= 1'b1;
   end
 
-  // A pass ends as soon as it is idle, as in controller; scans and clears come between passes. It begins with known counts;
-  // where one of them is full, its pixel is frozen, for clear_all_i comes with the clearing of all bins.
+  // A pass ends as soon as it is idle, as in dtof_controller; scans and clears come between passes. A pass begins with known counts. If
+  // one of them is full, its pixel is frozen, because clear_all_i comes with the clear of all bins.
   logic stream_q, more_q, ready, acq_done, idle, accepted, prepared;
   logic [2:0] quiet_q;
   logic fetch, beat_t1, first_slot, visit, first_acq, last_slot, beat_t5;
@@ -112,10 +112,10 @@ module histogram_builder_properties #(
       .full_t5_o      (full_t5)
   );
 
-  // The reference: the counters of one pixel, which count a timestamp when the design's write of it is due, at T5.
+  // Reference: the counters of one pixel. They count a timestamp at T5, when the module writes its count.
   (* anyconst *) logic [ROW_WIDTH-1:0] watched_pixel;
   (* anyconst *) logic [BIN_WIDTH-1:0] watched_bin;
-  logic [ROW_WIDTH-1:0] pixel_q;  // of the next timestamp
+  logic [ROW_WIDTH-1:0] pixel_q;  // pixel of the next timestamp
   logic [SLOT_WIDTH-1:0] slot_q;
   logic accepted_q, watched_t1_q, scanned_q, check_q;
   logic [COUNT_WIDTH-1:0] scanned_count_q, expected_q, hit_count;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two labels, three pixels, driven by dtof_pool_sequencer and with the messages in an SRAM, as in dtof_pool_engine: label and
-// margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty
-// of the one that is farther from the pixel in question (docs/reference/poolpointer.md, Chain: the sender's lambda).
+// Proves of dtof_label_chain, with two labels and three pixels, driven by dtof_pool_sequencer and with the messages in an SRAM as in
+// dtof_pool_engine: best label and margin of every pixel are those of a search over all eight assignments. A pair of neighbours that disagree
+// costs the penalty of the pixel that is farther from the pixel of the result (docs/reference/poolpointer.md, Chain: the sender's lambda).
 `include "dtof_macros.svh"
 `include "properties.svh"
 
@@ -69,8 +69,8 @@ module label_chain_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .send_busy_i  (1'b0)
   );
 
-  // The pixel prepared, fetched a step before: from the last to the first, then back. The first step has none.
-  localparam int STEPS = PIXELS + 4;  // of the first pass
+  // The prepared pixel, fetched a step before: from the last to the first, then back. In the first step there is none.
+  localparam int STEPS = PIXELS + 4;  // steps of the first pass
   logic [3:0] steps_q;
   logic [1:0] results_q;
   logic [1:0] prepared;
@@ -129,7 +129,7 @@ module label_chain_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .margin_o         (margin)
   );
 
-  // The sum of an assignment, seen from a pixel.
+  // Sum of an assignment, for the result of one pixel.
   integer assignment, sum, best0, best1;
   integer e0, e1, e2, q0, q1, q2, cost01, cost12;
   always_comb begin
@@ -151,7 +151,7 @@ module label_chain_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
       q0 = $signed(position[(0+(assignment&1))*POSITION_WIDTH+:POSITION_WIDTH]);
       q1 = $signed(position[(2+((assignment>>1)&1))*POSITION_WIDTH+:POSITION_WIDTH]);
       q2 = $signed(position[(4+((assignment>>2)&1))*POSITION_WIDTH+:POSITION_WIDTH]);
-      // Between pixels 0 and 1 the sender is 0 for pixels 1 and 2, between 1 and 2 it is 2 for pixels 0 and 1.
+      // Between pixels 0 and 1 the sender is 0 for the results of 1 and 2; between 1 and 2 the sender is 2 for those of 0 and 1.
       cost01 = (results_q == 2'd0) ? 32'(penalty[PENALTY_WIDTH+:PENALTY_WIDTH]) : 32'(penalty[0+:PENALTY_WIDTH]);
       cost12 = (results_q == 2'd2) ? 32'(penalty[PENALTY_WIDTH+:PENALTY_WIDTH])
           : 32'(penalty[2*PENALTY_WIDTH+:PENALTY_WIDTH]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// hit[k] = (-WINDOW <= (X >> 9) - cell[k] < WINDOW) (docs/reference/poolpointer.md, Track).
+// Proves of dtof_label_match: hit[k] = (-WINDOW <= (X >> 9) - cell[k] < WINDOW) (docs/reference/poolpointer.md, Track).
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD

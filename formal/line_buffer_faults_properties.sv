@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_line_buffer: an acquisition that has begun is never interrupted, and every line reaches the array in its place or, where one
-// is missing, as no detection: whatever the source's and the array's pace, wherever s_tlast_i is, through flushes, aborts and
-// timeouts, and from reset at any time. A source that cannot wait (SOURCE_WAITS = 0) loses whole acquisitions, none of which the array has
-// begun, and nothing beside. One arbitrary line of every eighth acquisition is watched.
+// Proves of dtof_line_buffer: an acquisition that has begun is never interrupted, and every line reaches the array at its place, a
+// missing line as no detection. This holds for any pace of source and array, for s_tlast_i in any line, with flushes, aborts and
+// timeouts, and from reset at any time. A source that cannot wait (SOURCE_WAITS = 0) loses only whole acquisitions that the array has not
+// begun. The harness watches one arbitrary line of every eighth acquisition.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -12,7 +12,7 @@ module line_buffer_faults_properties #(
     parameter int ACQUISITION_LINES = 2,
     parameter int LINES = 2,
     parameter int WIDTH = 1,
-    parameter int WHOLE = 0,  // 1: an acquisition is whole when it begins
+    parameter int WHOLE = 0,  // 1: an acquisition is complete when it begins
     parameter int REGISTERS = 0,
     parameter int CLOCK_WAITS = 0,
     parameter int SOURCE_WAITS = 1,
@@ -78,17 +78,17 @@ module line_buffer_faults_properties #(
       .line_o            (line)
   );
 
-  // Both sides count acquisitions, modulo 8, and lines. At most LINES + 1 acquisitions lie between them.
+  // Both sides count acquisitions, modulo 8, and lines. The sides are at most LINES + 1 acquisitions apart.
   (* anyconst *) logic [2:0] watched_acquisition;
   (* anyconst *) logic [3:0] watched_line;
   logic [2:0] in_acquisition_q, out_acquisition_q;
   logic [3:0] in_line_q, out_line_q;
   logic live_q, lost_q, come_q, push, thrown, keep, in_last, step, out_last, at_watched, waits_q, drains_q, behind_q, timeout, starves;
   logic [WIDTH-1:0] expected_q;
-  logic [3:0] wait_q;  // clocks that the memory is full and nothing is offered
+  logic [3:0] wait_q;  // clocks in which the memory is full and no line is offered
 
   assign push = s_tvalid_i && s_tready;
-  assign thrown = push && (flush_i || abort_i || timeout);  // of a source that cannot wait
+  assign thrown = push && (flush_i || abort_i || timeout);  // lines that a source which cannot wait loses in this clock
   assign keep = push && !behind_q && !thrown && !dropped;
   assign in_last = (32'(in_line_q) == ACQUISITION_LINES - 1);
   assign step = line_valid && line_ready_i && !waits;
@@ -133,7 +133,7 @@ module line_buffer_faults_properties #(
         end
         lost_q <= (lost_q || underrun) && !out_last;
       end
-      // The watched line of an acquisition that ran empty may come when the array is behind it.
+      // The watched line of an acquisition that ran empty may come after the array has passed it.
       if (keep && in_acquisition_q == watched_acquisition && in_line_q == watched_line
           && out_acquisition_q != in_acquisition_q && 3'(in_acquisition_q + 1'b1) == out_acquisition_q) come_q <= 1'b0;
       waits_q <= (waits_q || line_ready_i) && !line_valid;
@@ -158,7 +158,7 @@ module line_buffer_faults_properties #(
 
   logic under_way, over;
   assign under_way = (out_line_q != '0);
-  assign over = (in_acquisition_q != out_acquisition_q);  // the array's acquisition has ended at the source
+  assign over = (in_acquisition_q != out_acquisition_q);  // the source has already ended the acquisition that the array is in
 
   `ASSUME(m_release, release_i != '0 && 32'(release_i) <= ACQUISITION_LINES && (CLOCK_WAITS != 0 || 32'(release_i) <= LINES)
                      && (WHOLE == 0 || 32'(release_i) == ACQUISITION_LINES))

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_line_buffer: an acquisition that has begun is never interrupted, but that with CLOCK_WAITS = 1 the array's clock rests, just as
-// long as the next line is late; and every line reaches the array in its place or, behind an underrun, as no detection, whatever the source's and the array's pace and from reset at any time. One arbitrary line
-// of every fourth acquisition is watched. s_tlast_i is where it belongs; line_buffer_faults has the rest.
+// Proves of dtof_line_buffer: an acquisition that has begun is never interrupted, except that with CLOCK_WAITS = 1 the array's clock stops
+// exactly while the next line is late. Every line reaches the array at its place or, after an underrun, as no detection. This holds for
+// any pace of source and array and from reset at any time. The harness watches one arbitrary line of every fourth acquisition. s_tlast_i is
+// at the right line; line_buffer_faults_properties has all other cases.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -11,7 +12,7 @@ module line_buffer_properties #(
     parameter int ACQUISITION_LINES = 2,
     parameter int LINES = 2,
     parameter int WIDTH = 1,
-    parameter int WHOLE = 0,  // 1: an acquisition is whole when it begins
+    parameter int WHOLE = 0,  // 1: an acquisition is complete when it begins
     parameter int REGISTERS = 0,
     parameter int CLOCK_WAITS = 0,
     localparam int LEVEL_WIDTH = $clog2(LINES + 2)
@@ -71,15 +72,15 @@ module line_buffer_properties #(
       .line_o      (line)
   );
 
-  // Both sides count acquisitions, modulo 4, and lines. At most LINES + 1 lines lie between them.
+  // Both sides count acquisitions, modulo 4, and lines. The sides are at most LINES + 1 lines apart.
   (* anyconst *) logic [1:0] watched_acquisition;
   (* anyconst *) logic [3:0] watched_line;
   logic [1:0] in_acquisition_q, out_acquisition_q;
   logic [3:0] in_line_q, out_line_q;
   logic live_q, lost_q, come_q, push, step, at_watched;
-  logic waited_q;  // the array's clock has rested in the last clock for a line on its way through the SRAM
+  logic waited_q;  // in the last clock the array's clock was stopped for a line between the SRAM and its output
   logic [WIDTH-1:0] expected_q;
-  logic [3:0] wait_q;  // clocks that the memory is full and nothing is offered
+  logic [3:0] wait_q;  // clocks in which the memory is full and no line is offered
 
   assign push = s_tvalid_i && s_tready;
   assign step = line_valid && line_ready_i && !waits;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smallest value is one of the values, and none of them is smaller.
+// Proves of dtof_minimum: the smallest value is one of the values, and no value is smaller.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The largest significance of the near candidates: none of them has more, one of them has it, and without one it is 0.
+// Proves of dtof_near_significance: no near candidate has a larger significance than the result, one near candidate has the same, and
+// without a near candidate the result is 0.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD

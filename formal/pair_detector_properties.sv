@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Behind a scan, with pauses, the pair is the lowest of those with the largest sum, and the pairs on either side of it are
-// its neighbours. The counts are arbitrary constants, one arbitrary pair is watched; a scan may be left off for the next.
+// Proves of dtof_pair_detector: after a scan, with pauses, the result is the lowest pair with the largest sum, and lean comes from its
+// two neighbours. The counts are arbitrary constants, and the harness watches one arbitrary pair; a scan may be cut off by the next.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -23,13 +23,13 @@ module pair_detector_properties #(
   (* anyconst *) logic [BINS*COUNT_WIDTH-1:0] counts;
   (* anyconst *) logic [BIN_WIDTH-1:0] watched;
 
-  // The address that is read next, past the bins as often as it likes.
+  // Address that is read next; any number of addresses may follow beyond the bins.
   logic [ADDRESS_WIDTH-1:0] next_q = '0;
   logic [ADDRESS_WIDTH-1:0] address;
   logic past;
   logic any_q = 1'b0;    // an address was read
-  logic past_q = 1'b0;   // the last address was past the bins
-  logic done_q = 1'b0;   // ... and the one before it, too
+  logic past_q = 1'b0;   // the last address was beyond the bins
+  logic done_q = 1'b0;   // the last two addresses were beyond the bins
   logic first_q = 1'b0;  // the last address was a pixel's first
 
   assign address = restart_i ? '0 : next_q;
@@ -71,7 +71,7 @@ module pair_detector_properties #(
       .last_o    (last)
   );
 
-  // The pairs by the equation: pair k at k, 0 and BINS beyond the ends.
+  // Pairs from the equation: pair k at k; pairs 0 and BINS extend beyond the ends.
   logic [(BINS+2)*COUNT_WIDTH-1:0] padded;
   logic [COUNT_WIDTH:0] pairs[BINS+1];
   logic [SUM_WIDTH-1:0] all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place is the integer quotient: the largest number of parts of a bin, 2^PLACE_WIDTH to a bin, that three times the
-// height fits into twice the lean that often. The pair is an arbitrary constant; steps come with pauses.
+// Proves of dtof_pair_interpolator: the place is the integer quotient of twice the lean and three times the height, in units of
+// 2^-PLACE_WIDTH bin. The pair is an arbitrary constant; the steps come with pauses.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -26,7 +26,7 @@ module pair_interpolator_properties #(
   (* anyconst *) logic [COUNT_WIDTH:0] count;
   (* anyconst *) logic [COUNT_WIDTH:0] behind;
   (* anyconst *) logic [SUM_WIDTH-1:0] sum;
-  logic [STEP_WIDTH-1:0] step_q = '0;  // taken so far
+  logic [STEP_WIDTH-1:0] step_q = '0;  // number of steps so far
 
   always_ff @(posedge clk_i) begin
     checking <= 1'b1;
@@ -67,8 +67,8 @@ module pair_interpolator_properties #(
   assign dividend = ((lean < height) ? lean : height) << (PLACE_WIDTH + 1);
   assign divisor = height + (height << 1);
 
-  // The pairs on either side are no higher, a pair is a part of the whole, and the mean of the others is less than the
-  // highest, unless nothing was counted (proved of dtof_pair_detector).
+  // No neighbouring pair is higher, a pair is a part of the sum, and the mean of the others is less than the highest pair,
+  // unless the histogram is empty (proved of dtof_pair_detector).
   `ASSUME(m_highest, before <= count && behind <= count)
   `ASSUME(m_part, SUM_WIDTH'(count) <= sum)
   `ASSUME(m_mean, sum == '0 || rest < WIDE'(count))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_parity_sram: a word that is as it was written raises no error and has its data; one whose bits have changed in an odd number of
-// places raises one, two clocks behind its read. The contents of the memory are arbitrary until an address is written: they stand for a
-// word that was damaged.
+// Proves of dtof_parity_sram: a word that is as it was written raises no error and has its data; a word with an odd number of changed bits
+// raises an error two clocks after its read. The contents of the memory are arbitrary until an address is written: they stand for
+// damaged words.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -50,7 +50,7 @@ module parity_sram_properties #(
       .write_data_i(write_data_i)
   );
 
-  // One address is followed. Whether its word was written since the begin, what with, and whether the last reads were of it.
+  // One address is observed: whether its word was written, with what data, and whether the last two reads were of this address.
   (* anyconst *) logic [ADDR_WIDTH-1:0] watched;
   logic written_q, good_q, good_before_q, read_q, read_before_q;
   logic [WIDTH-1:0] word_q, expected_q;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which acquisitions belong to a pass, and the gear of each: the specification's divisions, for every number of
-// acquisitions that ACQ_WIDTH holds.
+// Proves of dtof_pass_sequencer: the acquisitions of each pass, and the gear of each acquisition, follow the divisions of the
+// specification, for every number of acquisitions that ACQ_WIDTH allows.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -66,7 +66,7 @@ module pass_sequencer_properties #(
     end
   end
 
-  // An acquisition of number a belongs to the pass if a < pass_end.
+  // Acquisition a belongs to the pass if a < pass_end.
   logic [ACQ_WIDTH+PASS_WIDTH:0] all, first_half, product, pass_end, final_begin, final_length, in_final, after_gear;
   logic [GEAR_WIDTH-1:0] expected_gear;
   logic final_pass;
@@ -82,7 +82,7 @@ module pass_sequencer_properties #(
       product = all * (ACQ_WIDTH + PASS_WIDTH + 1)'(pass_q + (PASS_WIDTH + 1)'(1));
       pass_end = product / (ACQ_WIDTH + PASS_WIDTH + 1)'(COARSE_PASSES + 1);
     end
-    // The gear is the largest g with a >= L - (L >> g), a counted within the final pass of L acquisitions.
+    // The gear is the largest g with a >= L - (L >> g); a is counted within the final pass of L acquisitions.
     final_begin = (COARSE_PASSES == 0) ? '0 : first_half;
     final_length = all - final_begin;
     in_final = (ACQ_WIDTH + PASS_WIDTH + 1)'(done_q) - final_begin;

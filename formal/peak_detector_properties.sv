@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// After any number of a pixel's bins the peak is the lowest of those with the largest count. One arbitrary bin is
-// watched: it is not larger than the peak, not as large with a lower index, and the peak itself is a bin that was seen.
+// Proves of dtof_peak_detector: after any number of a pixel's bins, the peak is the lowest bin with the largest count. The harness
+// watches one arbitrary bin: its count is not larger than the peak's, its count is not equal with a lower index, and the peak is a bin that was read.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -41,7 +41,7 @@ module peak_detector_properties #(
       .confidence_o(confidence)
   );
 
-  // A pixel's bins come in order from 0 up, with pauses, and may end early with the next pixel's first.
+  // A pixel's bins come in order from 0 on, with pauses, and may end early with the next pixel's first bin.
   logic [BIN_WIDTH:0] seen_q;
   logic [COUNT_WIDTH-1:0] watched_count_q;
   logic [SUM_WIDTH-1:0] sum_q;
@@ -70,7 +70,7 @@ module peak_detector_properties #(
 
   assign watched_seen = any_q && ((BIN_WIDTH + 1)'(watched) < seen_q);
 
-  // S - C is never negative, so the shift floors.
+  // S - C is never negative, so the shift is a division rounded down.
   logic [SUM_WIDTH-1:0] share, height;
   assign share = (sum_q - SUM_WIDTH'(count)) >> SHARE_SHIFT;
   assign height = (SUM_WIDTH'(count) > share) ? SUM_WIDTH'(count) - share : '0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a timestamp is from where a pixel's word points: docs/reference/poolpointer.md, Track and Point, on integers.
+// Proves of dtof_pixel_distance: the distance of a timestamp from the position in a pixel's word follows docs/reference/poolpointer.md,
+// Track and Point, on integers.
 `include "dtof_macros.svh"
 `include "properties.svh"
 
@@ -48,7 +49,7 @@ module pixel_distance_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
     cell_of = 32'((cells_i >> (7 * label)) & (LABELS * 7)'(127));
   endfunction
 
-  // Track: distance to the leader's candidate and offset.
+  // Track: distance to the leader's position, which is its candidate plus the offset.
   integer x, leader, offset, leader_position, track_cells;
   assign x = 32'(position_i);
   always_comb begin
@@ -63,9 +64,9 @@ module pixel_distance_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
     track_cells = (x - leader_position) >>> 9;
   end
 
-  // Point: Qa and Qb of the word, e and f.
+  // Point: Qa and Qb of the word, e and f of the equations.
   integer a, b, qa, rival_cell, pointer, e, f, n, away, step, expected_weight;
-  localparam int RIVAL_REACH = (RIVAL_MOVES != 0) ? 6 : 4;  // one at rest is a candidate, with its window
+  localparam int RIVAL_REACH = (RIVAL_MOVES != 0) ? 6 : 4;  // a resting rival is a candidate and has a candidate's window
   logic expected_reach, expected_hit, expected_rival_hit;
   always_comb begin
     pointer = 32'(word_i) & ((1 << POINTER_WIDTH) - 1);
@@ -120,7 +121,7 @@ module pixel_distance_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .distance_o   (distance)
   );
 
-  // The gear of the short advantage is in the pointer's units.
+  // With a short advantage the gear is in units of the pointer.
   localparam int GEAR_SHIFT = (ADVANTAGE_WIDTH == 4) ? POINTER_SHIFT : 0;
 
   `ASSUME(m_leader_in_use, point_i || leader < LABELS)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_pointer_builder, driven by dtof_pixel_sequencer, folds each pixel's timestamps one after the other into its word: one
-// arbitrary pixel is followed. A single move is dtof_pointer_update's, which has a proof of its own.
+// Proves of dtof_pointer_builder, driven by dtof_pixel_sequencer: each pixel's timestamps change its word one after the other. The
+// harness follows one arbitrary pixel. The proof of dtof_pointer_update covers a single move.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -24,10 +24,10 @@ module pointer_builder_properties #(
     input logic                     begin_i,
     input logic                     more_i,
     input logic                     tdc_valid_i,
-    input logic                     may_hit_i,     // at T0: what the window at T1 can keep
+    input logic                     may_hit_i,     // at T0: timestamps that the window at T1 may keep
     input logic                     keep_i,
     input logic [           NP-1:0] timestamp_i,   // at T1
-    input logic [   STEP_WIDTH-1:0] step_i,        // after an acquisition and before a pass
+    input logic [   STEP_WIDTH-1:0] step_i,        // changes after an acquisition and before a pass
     input logic                     read_i,
     input logic [    ROW_WIDTH-1:0] read_pixel_i,
     input logic                     start_i,
@@ -136,9 +136,9 @@ module pointer_builder_properties #(
       .confidence_o   (confidence)
   );
 
-  // The reference: one word.
+  // Reference: the word of one pixel.
   (* anyconst *) logic [ROW_WIDTH-1:0] watched_pixel;
-  logic [ROW_WIDTH-1:0] pixel_q;  // of the next timestamp
+  logic [ROW_WIDTH-1:0] pixel_q;  // pixel of the next timestamp
   logic [SLOT_WIDTH-1:0] slot_q;
   logic watched_t1_q, known_q, check_s1_q, check_s2_q, started;
   logic [POINTER_WIDTH-1:0] pointer_q, moved_pointer;

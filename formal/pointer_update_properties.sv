@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One step of a pointer and of its confidence: Eq. 3.12 and docs/reference/readouts.md, in 32-bit integers.
+// Proves of dtof_pointer_update: one step of a pointer and of its confidence follows Eq. 3.12 and docs/reference/readouts.md, in 32-bit
+// integers.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -26,7 +27,7 @@ module pointer_update_properties #(
   assign checking = 1'b1;
 
   localparam int RANGE = 1 << POINTER_WIDTH;
-  localparam int NEAR_RANGE = (POINTER_WIDTH < 5) ? 1 : RANGE / 32;  // the top bits of d are equal
+  localparam int NEAR_RANGE = (POINTER_WIDTH < 5) ? 1 : RANGE / 32;  // range in which the top bits of d are equal
 
   logic [POINTER_WIDTH-1:0] pointer;
   logic [CONFIDENCE_BITS-1:0] confidence;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The confidence of the middle one of three rows: docs/reference/poolpointer.md, Confidence, on integers. What the rows have
-// is constant; what was in the registers before is free.
+// Proves of dtof_pool_confidence: the confidence of the middle row of three follows docs/reference/poolpointer.md, Confidence, on integers.
+// The values of the rows are constants; the initial registers are free.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The control of dtof_pool_pointer_array with the columns of one SRAM: dtof_pool_controller, dtof_pair_sequencer, the registers between
-// them and the columns, dtof_pool_quad. The engines are replaced by anything that keeps to what
-// pool_sequencer_properties proves of dtof_pool_sequencer. That the single-port SRAM has one access a clock, and in
-// range, are assertions of dtof_sram.
+// Proves the control of dtof_pool_pointer_array with the columns of one SRAM: dtof_pool_controller, dtof_pair_sequencer, the registers
+// between them and the columns, dtof_pool_quad. Free inputs replace the engines; they are restricted to what
+// pool_sequencer_properties proves of dtof_pool_sequencer. Assertions of dtof_sram check that the single-port SRAM has one access per
+// clock, and only in range.
 //
-// Every frame ends, as in control_properties; clocks in which the engine works are left out here, for the operations of
-// dtof_pool_sequencer end in time.
+// Every frame ends, for the reasons in control_properties.sv. Clocks in which the engines work are not counted here, because
+// pool_sequencer_properties proves that operations of dtof_pool_sequencer end in time.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -38,8 +38,8 @@ module pool_control_properties #(
     input logic [ ACQ_WIDTH-1:0] track_end_i,
     input logic                  tdc_valid_i,
     input logic [COLUMNS*NP-1:0] timestamp_i,
-    input logic                  sweep_i,  // as an acquisition begins: the columns take it for a sweep
-    // what an engine may do
+    input logic                  sweep_i,  // at the begin of an acquisition: the columns treat it as a sweep
+    // accesses that an engine may make
     input logic                  engine_read_i,
     input logic                  engine_write_i,
     input logic [ADDR_WIDTH-1:0] engine_address_i,
@@ -92,7 +92,7 @@ module pool_control_properties #(
   logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
   logic [PART_WIDTH-1:0] part;
-  logic sweep, make_room, is_sweep_q;  // a frame of 64 acquisitions is too long for the proof
+  logic sweep, make_room, is_sweep_q;  // free, because a frame of 64 acquisitions is too long for the proof
 
   dtof_pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
@@ -211,7 +211,7 @@ module pool_control_properties #(
       .second_word_o   (unused_words[2*LINE_WIDTH-1:LINE_WIDTH])
   );
 
-  // A frame, its clears followed at one arbitrary address.
+  // A frame; its clears are observed at one arbitrary address.
   (* anyconst *) logic [ADDR_WIDTH-1:0] watched;
   logic frame_q, accepted_q, accepted_before_q, working_q, decoded_q;
   logic [2:0] state_q;
@@ -221,7 +221,7 @@ module pool_control_properties #(
   logic [7:0] place_q;
   logic accepted, acquisition_begins, begins_q, stay_ends;
 
-  // Rows are missing where they are no multiple of four; the array then takes nothing.
+  // If the number of rows is no multiple of four, rows are missing; the array takes no timestamps for them.
   assign accepted = checking && ready && tdc_valid_i;
   assign acquisition_begins = accepted && (place_q == '0);
   assign stay_ends = (state != state_q);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_pool_result_output: AXI4-Stream rules, every engine's result once and in order, whatever the back-pressure and from
-// reset at any time. The harness keeps what was given in a queue of three entries and watches one arbitrary engine.
+// Proves of dtof_pool_result_output: the rules of AXI4-Stream, and every engine's result leaves once and in order, under any back-pressure
+// and from reset at any time. The harness stores the results in a queue of three entries and watches one arbitrary engine.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -60,15 +60,15 @@ module pool_result_output_properties #(
       .tlast_o  (tlast)
   );
 
-  // An entry of the queue: {last, row, column, result of the watched engine}. It enters when its results arrive.
+  // Entry of the queue: {last, row, column, result of the watched engine}. It enters when the results arrive.
   localparam int PLACE_WIDTH = 1 + ROW_WIDTH + STEP_WIDTH;
   localparam int ENTRY_WIDTH = PLACE_WIDTH + RESULT_WIDTH;
   (* anyconst *) logic [7:0] watched;
-  logic [LATENCY*(1+PLACE_WIDTH)-1:0] way_q;  // {sent, place} of each clock on the way, the oldest highest
+  logic [LATENCY*(1+PLACE_WIDTH)-1:0] way_q;  // {sent, place} of the last LATENCY clocks, the oldest highest
   logic arrives;
   logic [PLACE_WIDTH-1:0] place;
   logic [ENTRY_WIDTH-1:0] given;
-  logic [3*ENTRY_WIDTH-1:0] queue_q, shifted;  // the oldest lowest
+  logic [3*ENTRY_WIDTH-1:0] queue_q, shifted;  // the oldest entry lowest
   logic [1:0] entries_q, asked_q, left;
   logic [7:0] beats_q, beats_of_front;
   logic [1:0] pause_q;
@@ -82,7 +82,7 @@ module pool_result_output_properties #(
   assign {arrives, place} = way_q[LATENCY*(1+PLACE_WIDTH)-1-:1+PLACE_WIDTH];
   assign given = {place, RESULT_WIDTH'(results_i >> (watched * RESULT_WIDTH))};
   assign {front_last, front_row, front_column, front_result} = queue_q[ENTRY_WIDTH-1:0];
-  // The last engine may have no such column.
+  // The last engine may lack this column.
   assign beats_of_front = ((ENGINES - 1) * ENGINE_COLUMNS + 32'(front_column) < SRAM_NUM) ? 8'(ENGINES)
       : 8'(ENGINES - 1);
   assign accepted = tvalid && tready_i;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_pool_sequencer with dtof_pool_result_output: one pair selected, one access a clock, addresses, labels and scratch rows
-// in range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
+// Proves of dtof_pool_sequencer with dtof_pool_result_output: one selected pair and one access per clock; addresses, labels and scratch rows
+// in range; an operation ends in time, not counting clocks in which the sink is not ready; results leave in order.
 `include "dtof_macros.svh"
 `include "properties.svh"
 
@@ -99,12 +99,12 @@ module pool_sequencer_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .tlast_o  (tlast)
   );
 
-  // The latencies that the module states, and the last commands and results.
+  // Latencies that the module states, and the last commands and results.
   localparam int PERIOD = (LABELS + 4 > 9) ? LABELS + 4 : 9;
   localparam int DECODE_CLOCKS = PAIRS * GROUPS * (32 * LABELS + 45) + 6;
   localparam int PRIOR_STEPS = (PRIOR != 0) ? 1 + PIXELS % 2 : 0;
   localparam int CHOOSE_CLOCKS = ENGINE_COLUMNS * (2 * (PIXELS + 4) + SMOOTH_STARTS + PRIOR_STEPS) * PERIOD + 6;
-  localparam int DECIDE_CLOCKS = ENGINE_COLUMNS * (2 * PIXELS + 9) * 6 + 6 + 2;  // the way of the last results
+  localparam int DECIDE_CLOCKS = ENGINE_COLUMNS * (2 * PIXELS + 9) * 6 + 6 + 2;  // the last 2: results on their way
 
   logic working_q, sending_q;
   logic choosing_q, decoding_q;
@@ -137,7 +137,7 @@ module pool_sequencer_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
       end
       passed_q <= pass_label ? passed_q + 1'b1 : '0;
     end
-    target_q <= command.choose.target | command.decide.target;  // one operation at a time
+    target_q <= command.choose.target | command.decide.target;  // only one operation is active at a time
     target_before_q <= target_q;
   end
 

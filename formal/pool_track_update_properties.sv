@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's track word after one timestamp: docs/reference/poolpointer.md, Track, step by step on integers.
+// Proves of dtof_pool_track_update: a pixel's track word after one timestamp follows docs/reference/poolpointer.md, Track, step by step on
+// integers.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -60,7 +61,7 @@ module pool_track_update_properties #(
     offset = 32'(full_before[FULL_WIDTH-1-:OFFSET_WIDTH]);
     if (offset >= END) offset = offset - 2 * END;
 
-    // The offset moves first, with the old leader, the more the less its score.
+    // First the offset moves, with the old leader; the step is smaller for a higher score.
     leader_score = 0;
     for (k = 0; k < LABELS; k = k + 1) begin
       if (k == leader) leader_score = 32'(word_i[k*SCORE_BITS+:SCORE_BITS]);
@@ -70,7 +71,7 @@ module pool_track_update_properties #(
     if (offset_up_i) next_offset = (offset + step > END - 1) ? END - 1 : offset + step;
     if (offset_down_i) next_offset = (offset - step < -END) ? -END : offset - step;
 
-    // The lowest candidate hit gains a point, or every other one loses one.
+    // The lowest candidate that is hit gains a point, or every other candidate loses a point.
     any_hit = 1'b0;
     hit_label = 0;
     hit_score = 0;
@@ -93,7 +94,7 @@ module pool_track_update_properties #(
       if (k == leader) next_leader_score = score;
     end
 
-    // Then it leads, if it is ahead of the leader.
+    // Then this candidate becomes the leader if its score exceeds the leader's.
     next_leader = leader;
     if (any_hit && hit_label != leader && next_hit_score > next_leader_score) begin
       next_leader = hit_label;

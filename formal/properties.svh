@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the harnesses in this folder are written with (docs/reference/formal.md). A harness declares `checking`,
-// which is high from the first clock on in which the design is out of reset.
+// Macros of the harnesses in this folder (docs/reference/formal.md). A harness declares `checking`, which is high from the first clock
+// on in which the design is out of reset.
 `ifndef PROPERTIES_SVH
 `define PROPERTIES_SVH
 
-// A contract of the design's inputs.
+// ASSUME: a contract of the design's inputs.
 `define ASSUME(LABEL, CONDITION) \
   always_comb if (checking) begin \
     LABEL: assume (CONDITION); \
   end
 
-// What is proved, and a situation that must be reachable under the assumptions: scripts/formal.py proves the one and
-// looks for a trace to the other in runs of their own.
+// PROVE: a property to prove. GOAL: a situation that must be reachable under the assumptions. scripts/formal.py proves the properties
+// and searches a trace to the goal in separate runs.
 `ifdef FIND_GOAL
 `define PROVE(LABEL, CONDITION)
 `define GOAL(CONDITION) \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_raster_buffer: every result leaves once, in raster order, under any pace of both sides and from reset at any time. One
-// arbitrary pixel is watched, its first result or its second; a frame has one or two results of every pixel. Behind a cut at any time
-// the result at the port stays, a frame whose results have been there ends with one that says so, and any other leaves no trace.
+// Proves of dtof_raster_buffer: every result leaves once, in raster order, for any pace of both sides and from reset at any time. The
+// harness watches one arbitrary pixel, its first or its second result; a frame has one or two results of every pixel. After a cut at any
+// time the result at the port stays; a frame with results that were at the port ends with an aborted result; any other frame leaves no result.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -18,7 +18,7 @@ module raster_buffer_properties #(
     input logic                    clk_i,
     input logic                    reset_i,
     input logic                    cut_i,
-    input logic                    both_i,      // in a frame's first result: its pixels have two
+    input logic                    both_i,      // with a frame's first result: the pixels of the frame have two results
     input logic                    s_tvalid_i,
     input logic [       WIDTH-1:0] s_result_i,
     input logic [COLUMN_WIDTH-1:0] s_column_i,
@@ -69,14 +69,14 @@ module raster_buffer_properties #(
   (* anyconst *) logic [COLUMN_WIDTH-1:0] watched_column;
   (* anyconst *) logic [ROW_WIDTH-1:0] watched_row;
   (* anyconst *) logic watched_second;
-  logic [7:0] in_q, out_q;  // results of the frame
+  logic [7:0] in_q, out_q;  // number of results of the frame
   logic come_q, held_q, whole_q, both_q, both_in, both_in_q, is_watched, push, pop;
   logic [7:0] last_in, last_out;
   logic [1:0] pause_q;
-  logic owed_q, aborted_q, ends;  // the word that ends a cut frame is to come or at the port
+  logic owed_q, aborted_q, ends;  // owed_q: the aborted result of a cut frame is still to come; aborted_q: it is at the port
   logic [WIDTH-1:0] expected_q, result_q;
 
-  // Whether pixels have two results is a frame's matter, known with its first one.
+  // All pixels of a frame have one result, or all have two; the frame's first result decides.
   assign both_in = (TARGETS > 1) && ((in_q == '0) ? both_i : both_in_q);
   assign last_in = 8'(SRAM_NUM * PIXELS_PER_SRAM * (both_in ? 2 : 1) - 1);
   assign last_out = 8'(SRAM_NUM * PIXELS_PER_SRAM * (both_q ? 2 : 1) - 1);
@@ -131,7 +131,7 @@ module raster_buffer_properties #(
     result_q <= result;
   end
 
-  // Each pixel of a frame once or twice, which tlast ends.
+  // A frame has each pixel once or twice, and ends with tlast.
   `ASSUME(m_in_array, 32'(s_column_i) < SRAM_NUM && 32'(s_row_i) < PIXELS_PER_SRAM)
   `ASSUME(m_watched, 32'(watched_column) < SRAM_NUM && 32'(watched_row) < PIXELS_PER_SRAM
           && (!watched_second || TARGETS > 1))

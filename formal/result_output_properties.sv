@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_result_output with the columns' result registers and the ways there and back: AXI4-Stream rules, every column's result once and in order,
-// whatever the back-pressure and from reset at any time. One arbitrary column is watched.
+// Proves of dtof_result_output, with the columns' result registers and the registers to and from the columns: the rules of AXI4-Stream, and
+// every column's result leaves once and in order, under any back-pressure and from reset at any time. The harness watches one arbitrary column.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -10,7 +10,7 @@ module result_output_properties #(
     parameter int SRAM_NUM = 3,
     parameter int ROW_WIDTH = 2,
     parameter int RESULT_WIDTH = 2,
-    parameter int STAGES = 1,  // of the way to the columns
+    parameter int STAGES = 1,  // registers to the columns
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
 ) (
@@ -36,7 +36,7 @@ module result_output_properties #(
   logic [(SRAM_NUM+1)*RESULT_WIDTH-1:0] chain;
   assign chain[SRAM_NUM*RESULT_WIDTH+:RESULT_WIDTH] = '0;
 
-  // The way to the columns, and the register behind the chain's head.
+  // Registers to the columns, and the register at the chain's head.
   logic column_load, column_shift;
   logic [SRAM_NUM*RESULT_WIDTH-1:0] column_results;
   logic [RESULT_WIDTH-1:0] head_q;
@@ -91,7 +91,7 @@ module result_output_properties #(
       .tlast_o   (tlast)
   );
 
-  // The row under way.
+  // The row that is being sent.
   (* anyconst *) logic [COLUMN_WIDTH-1:0] watched;
   logic loaded_q, sending_q, tvalid_q, tready_q, tlast_q, last_row_q, finished_q;
   logic [COLUMN_WIDTH:0] beats_q;

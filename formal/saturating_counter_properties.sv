@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_saturating_counter: the sum of all steps since reset, or the largest value.
+// Proves of dtof_saturating_counter: the count is the sum of all steps since reset, or the largest value.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD

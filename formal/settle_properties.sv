@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_settle: of the acquisitions that leave the line buffer behind a frame's start just the first settle_i are dropped, each from its
-// first line to its last; behind an abort none is, behind a timeout the one that has begun to leave.
+// Proves of dtof_settle: of the acquisitions that leave the line buffer after a frame's start, exactly the first settle_i are dropped, each
+// from its first line to its last. After an abort no acquisition is dropped, after a timeout only an acquisition that has begun to leave.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -43,11 +43,11 @@ module settle_properties #(
       .takes_o  (takes)
   );
 
-  // The reference counts upwards: acquisitions that have left since the frame began, and how many of them it drops.
+  // The reference counts upwards: acquisitions that have left since the frame began, and acquisitions to drop.
   localparam logic [WIDTH:0] MOST = {1'b1, {WIDTH{1'b0}}};
-  logic [WIDTH:0] left_q;      // at most MOST, more than any frame drops
+  logic [WIDTH:0] left_q;      // at most MOST, which is more than any frame drops
   logic [WIDTH:0] dropping_q;  // acquisitions that the frame drops
-  logic leaving_q;             // between an acquisition's first line and its last
+  logic leaving_q;             // between the first and the last line of an acquisition
 
   `ASSUME(m_first, !first_i || !leaving_q)
   `ASSUME(m_last, !last_i || leaving_q || first_i)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_shot_dither: in front of any source that answers each shot with one acquisition, and an array that takes any time for each, a
-// frame has one shot for each of its acquisitions and none beside; a shot comes 2 + delay clocks behind its request, the delay
-// being that of a register that makes its steps one by one. FREE = 1: whatever the source, aborts, flushes and timeouts do, a
-// shot is fired only in a frame that needs an acquisition, never while one is owed or waits or it is too early, and never twice in two
-// clocks.
+// Proves of dtof_shot_dither, before any source that answers each shot with one acquisition, and an array that needs any time for
+// each: a frame has exactly one shot per acquisition. A shot comes 2 + delay clocks after its request; the delay comes from a
+// register that makes its steps one by one. FREE = 1: whatever source, aborts, flushes and timeouts do, a shot fires only in a frame that
+// needs an acquisition, never while an acquisition is outstanding or has not begun, never while early_i is high, and never in two
+// successive clocks.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -72,12 +72,12 @@ module shot_dither_properties #(
       .first_state_o (first_state)
   );
 
-  // The frame, the source and the array as the ports show them.
-  logic [ACQ_WIDTH:0] shots_q, taken_q, frame_q;  // shots and begun acquisitions of the frame, and how many it has
+  // State of frame, source and array, as the ports show it.
+  logic [ACQ_WIDTH:0] shots_q, taken_q, frame_q;  // shots and begun acquisitions of the frame; number of acquisitions of the frame
   logic [BITS_WIDTH-1:0] bits_q;
   logic [UNIT_WIDTH-1:0] unit_q;
   logic owed_q, running_q, shot_before_q, early_before_q, ends;
-  logic needs;  // an acquisition may be asked for
+  logic needs;  // an acquisition may be requested
 
   assign ends = abort_i || flush_i || give_up_i;
   assign needs = running_q && (taken_q != frame_q) && (queued_q == '0) && !owed_q && !shot && !early_i && !arrives_i
@@ -113,7 +113,7 @@ module shot_dither_properties #(
   `ASSUME(m_queue, !arrives_i || queued_q != '1)
   `ASSUME(m_command, !ends || (!taken_i && !begin_i))
 
-  // What holds in front of any source.
+  // Properties that hold for any source.
   `PROVE(a_in_a_frame, !rst_n || !shot || (running_q && taken_q != frame_q))
   `PROVE(a_none_waits, !rst_n || !shot || queued_q == '0)
   `PROVE(a_none_owed, !rst_n || !shot || !owed_q)
@@ -122,7 +122,7 @@ module shot_dither_properties #(
 
   generate
     if (FREE == 0) begin : g_paced
-      // A register that makes one step at a time.
+      // Reference register, which makes one step at a time.
       logic [15:0] state_q, first_state_q, stepped;
       logic [16*16-1:0] states;
       genvar i;
@@ -132,7 +132,7 @@ module shot_dither_properties #(
       end
       assign stepped = {states[240] ^ states[242] ^ states[243] ^ states[245], states[241+:15]};
 
-      // A request, and how long its shot has to wait.
+      // A request, and the clocks until its shot.
       logic waits_q;
       logic [UNITS_WIDTH+UNIT_WIDTH:0] due_q, delay;
       assign delay = (UNITS_WIDTH + UNIT_WIDTH + 1)'(state_q[UNITS_WIDTH-1:0] & ~({UNITS_WIDTH{1'b1}} << bits_q))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The offset of long frames: none up to 3,839 acquisitions, the largest that fits for the longest ones, and never less for a
+// Proves of dtof_significance_offset: the offset is 0 up to 3,839 acquisitions, 17 for the longest frame, and never smaller for a
 // longer frame.
 `include "properties.svh"
 
@@ -31,7 +31,7 @@ module significance_offset_properties #(
       .clk_i(clk_i), .acq_num_i(fewer), .offset_o(smaller)
   );
 
-  // From the definition: lg(3584) = 94 gives none, lg(4096) = 96 one, each doubling four more.
+  // From the definition: lg(3584) = 94 gives 0, lg(4096) = 96 gives 1, each doubling adds 4.
   `PROVE(a_short, 32'(acquisitions) >= 3840 || offset == 5'd0)
   `PROVE(a_first, 32'(acquisitions) < 3840 || 32'(acquisitions) >= 4608 || offset == 5'd1)
   `PROVE(a_ten_thousand, 32'(acquisitions) != 10000 || offset == 5'd6)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts, S1 and the result word of three positions in a row and one to the left, any of which may be missing but the
-// middle one: docs/reference/poolpointer.md, Choose and Decide, step by step on integers. The positions are constants; what
-// was in the registers before is not.
+// Proves of dtof_smoothing: starts, S1 and the result word, for positions in three rows and one position to the left, each of which may
+// be missing except the middle row, follow docs/reference/poolpointer.md, Choose and Decide, step by step on integers. The positions are
+// constants; the initial registers are free.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -20,7 +20,7 @@ module smoothing_properties #(
   localparam int CONFIDENCE_WIDTH = 8;
 
   (* anyconst *) logic [47:0] positions;  // of the rows above, in the middle and below
-  (* anyconst *) logic [47:0] left;  // to the left of each
+  (* anyconst *) logic [47:0] left;  // in the column to the left, for each row
   (* anyconst *) logic [47:0] lost;
   (* anyconst *) logic [2:0] has;
   (* anyconst *) logic [3*CONFIDENCE_WIDTH-1:0] margins;

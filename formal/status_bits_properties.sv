@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// valid_o tells of one arbitrary address, read in the clock before, whether it was written since the last clear.
+// Proves of dtof_status_bits, for one arbitrary address: after a read, valid_o says whether the address was written since the last
+// clear.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -33,7 +34,7 @@ module status_bits_properties #(
       .valid_o     (valid)
   );
 
-  // Known from the first clear on.
+  // The state is known from the first clear on.
   logic known_q = 1'b0;
   logic read_q = 1'b0;
   logic written_q, expected_q;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_stream_output: every result leaves once, in order, with its status, under any back-pressure and from reset at any time. Behind a
-// cut at any time the word at the port stays, and a frame whose words have been there ends with the word that says so.
+// Proves of dtof_stream_output: every result leaves once, in order, with its status, under any back-pressure and from reset at any time.
+// After a cut at any time the word at the port stays, and a frame with words that were at the port ends with an aborted word.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -84,16 +84,16 @@ module stream_output_properties #(
       .m_axis_tlast_o (tlast)
   );
 
-  // What must come, in a queue: {first, last, word}, the oldest in slot 0.
+  // Expected words in a queue: {first, last, word}, the oldest in slot 0.
   logic [ENTRY_WIDTH-1:0] slot0_q, slot1_q, entry;
   logic [1:0] count_q;
   logic begins_q, weak, empty, masked, saturated, push, pop, stays, open, popped_open_q;
-  localparam logic [ENTRY_WIDTH-1:0] ABORTED = {1'b0, 1'b1, 1'b1, 63'd0};  // not the first, the last, the word's highest bit
+  localparam logic [ENTRY_WIDTH-1:0] ABORTED = {1'b0, 1'b1, 1'b1, 63'd0};  // not first, last, and the highest bit of the word set
 
   assign weak = (HAS_CONFIDENCE > 0) && !raw_i && (confidence < weak_below_i);
   assign empty = (HAS_CONFIDENCE > 0) && !raw_i && (confidence == 16'd0);
   assign masked = ((enable_i >> column_i) & 1'b1) == '0;
-  // One more than the count would need another bit.
+  // count + 1 needs one more bit.
   logic [16:0] above;
   assign above = 17'(confidence) + 17'd1;
   assign saturated = (CONFIDENCE_WIDTH > 0) && (raw_i ? above == 17'd1 << RAW_COUNTER_WIDTH
@@ -103,7 +103,7 @@ module stream_output_properties #(
   assign push = result_tvalid_i && result_tready;
   assign pop = tvalid && m_axis_tready_i;
 
-  // The frame whose word is or was the last at the port has not ended with it.
+  // The frame of the word that is, or was last, at the port has not ended with this word.
   assign open = (count_q != 2'd0) ? !slot0_q[64] : popped_open_q;
   assign stays = (count_q != 2'd0) && !pop;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_target_words: every result leaves once, and its second target behind it where both are asked for, under any back-pressure
+// Proves of dtof_target_words: every result leaves once, followed by its second target if both are requested, under any back-pressure
 // and from reset at any time.
 `include "properties.svh"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A timestamp x with gate_begin <= x < gate_end that is not all ones is a detection, STAGES clocks later at T0 and one more
-// at T1; the register of T1 keeps the last one.
+// Proves of dtof_timestamp_input: a timestamp x is a detection if gate_begin <= x < gate_end and x is not all ones; it is at T0 after
+// STAGES clocks and at T1 one clock later; the register of T1 holds the last detection.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -35,7 +35,7 @@ module timestamp_input_properties #(
       .timestamp_t1_o(timestamp_t1)
   );
 
-  // What went in, the last clock's lowest; `known` once all of it was seen.
+  // Timestamps at the input, that of the last clock lowest; `known` is all ones when the harness has seen all of them.
   logic [STAGES+1:0] known = '0;
   logic checking, expected_q;
   logic [(STAGES+1)*NP-1:0] timestamps_q;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's pointer word after one timestamp: docs/reference/poolpointer.md, Point, on integers, from timestamp and
-// word to the next word. Distances come from dtof_pixel_distance and dtof_label_match, so that the three are proved together.
+// Proves of dtof_twin_pointer_update, dtof_pixel_distance and dtof_label_match together, from timestamp and word to the next word: a
+// pixel's pointer word after one timestamp follows docs/reference/poolpointer.md, Point, on integers.
 `include "dtof_macros.svh"
 `include "properties.svh"
 
@@ -44,7 +44,7 @@ module twin_pointer_update_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   localparam int U = 1 << POINTER_SHIFT;
   localparam int HALF = 1 << (ADVANTAGE_WIDTH - 1);
-  localparam int RIVAL_REACH = (RIVAL_MOVES != 0) ? 6 : 4;  // one at rest is a candidate, with its window
+  localparam int RIVAL_REACH = (RIVAL_MOVES != 0) ? 6 : 4;  // a resting rival is a candidate and has a candidate's window
   localparam int FULL = (1 << ADVANTAGE_WIDTH) - 1;
 
   function automatic integer cell_of(input integer label);
@@ -121,7 +121,7 @@ module twin_pointer_update_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
     expected_hit = valid_i && e >= -5 && e <= 4;
     rival = valid_i && !expected_hit && f >= -RIVAL_REACH && f < RIVAL_REACH;
 
-    // The move.
+    // Move of the pointer.
     away = (e >= 0) ? e : -1 - e;
     w = (away == 0 || away == 7) ? 1 : (away == 6) ? 2 : (away == 1 || away == 5) ? 3 : 4;
     if (ADVANTAGE_WIDTH == 7) begin
@@ -139,7 +139,7 @@ module twin_pointer_update_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
       if (next_pa > highest) next_pa = highest;
     end
 
-    // Rival, advantage, roles.
+    // Rival, advantage, change of roles.
     next_pb = pb + ((rival && f > 0) ? 1 : (rival && f < 0) ? -1 : 0);
     next_a = a;
     next_b = b;
@@ -160,7 +160,7 @@ module twin_pointer_update_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
       expected = (POINT_WIDTH'(next_n) << (POINTER_WIDTH + 7)) | (POINT_WIDTH'(next_pb) << POINTER_WIDTH)
           | POINT_WIDTH'(next_pa >>> POINTER_SHIFT);
     end else begin
-      // The new leader's pointer is its candidate.
+      // The new leader's pointer starts at its candidate.
       expected = (POINT_WIDTH'(next_n) << (POINTER_WIDTH + 2 * LABEL_WIDTH))
           | (POINT_WIDTH'(next_b) << (POINTER_WIDTH + LABEL_WIDTH)) | (POINT_WIDTH'(next_a) << POINTER_WIDTH)
           | POINT_WIDTH'(roles_change ? 0 : ((next_pa - origin) >>> POINTER_SHIFT) & ((1 << POINTER_WIDTH) - 1));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_watchdog: it expires in the clock behind limit_i clocks of one wait, never otherwise and never with 0, whatever comes and goes.
+// Proves of dtof_watchdog: expired_o is high exactly in the clock after limit_i successive clocks of one wait, and never with limit_i = 0,
+// for any sequence of waits.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -33,7 +34,7 @@ module watchdog_properties #(
       .expired_o(expired)
   );
 
-  // Clocks of the wait up to the last clock, from the begin of the wait or the last expiry on.
+  // Clocks of the wait up to the last clock, counted from the begin of the wait or from the last expiry.
   logic [WIDTH:0] waited_q, waited;
   logic due;
   assign due = (limit != '0) && (waited_q == {1'b0, limit});

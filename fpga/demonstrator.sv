@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The very top of an FPGA that shows dtof_subsystem without a sensor (make fpga, docs/user/integration.md): photons are made
-// on the chip, hisPointer or poolPointer reads them out, results leave through a serial line, over which targets can be
-// changed.
+// Top module of an FPGA that demonstrates dtof_subsystem without a sensor (make fpga, docs/user/integration.md): a generator makes
+// photons on the chip, hisPointer or poolPointer reads them out, and results leave through a serial line, which also receives commands
+// that change the targets.
 //
 //   rx_i -> uart_receiver -> target_command -> photon_generator -> dtof_subsystem -> word_sender -> uart_transmitter -> tx_o
 //                                              register_writer ------^
 //
-// Frames follow each other without an end. The serial line is slower than the array, which waits for it.
+// Frames follow each other continuously. The serial line is slower than the array; the array stops while the line is busy.
 // Clock: any; at 12 MHz the line has 1 Mbaud. There is no reset input: the FPGA's configuration clears the registers of the
 // reset, which ends eight clocks later.
+// Latency: that of dtof_subsystem. Cost: the sum of the modules above.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -24,7 +25,7 @@ module demonstrator #(
     input  logic clk_i,
     input  logic rx_i,
     output logic tx_o,
-    output logic frame_o  // changes with every frame: for a light
+    output logic frame_o  // toggles with every frame: for a light
 );
 
   localparam int PIXELS = ROWS * COLUMNS;
@@ -41,7 +42,7 @@ module demonstrator #(
     rst_n <= (awake_q == '1);
   end
 
-  // Targets over the serial line.
+  // Targets from the serial line.
 
   logic received, target_write;
   logic [7:0] received_byte;
@@ -71,7 +72,7 @@ module demonstrator #(
       .code_o (target_code)
   );
 
-  // Photons, registers, the read-out.
+  // Photons, registers, read-out.
 
   logic line_tvalid, line_tready, line_tlast, psel, penable, pready;
   logic [LINE_WIDTH-1:0] line_tdata;
@@ -136,7 +137,7 @@ module demonstrator #(
       .prdata_o       (prdata),
       .pslverr_o      (pslverr),
       .irq_o          (irq),
-      .shot_o         (unused_shot),  // the source fires by itself
+      .shot_o         (unused_shot),  // the source does not need a shot
       .s_axis_tvalid_i(line_tvalid),
       .s_axis_tready_o(line_tready),
       .s_axis_tdata_i (line_tdata),
@@ -151,7 +152,7 @@ module demonstrator #(
   logic unused_registers;
   assign unused_registers = ^{prdata, pslverr, irq};
 
-  // Results over the serial line.
+  // Results to the serial line.
 
   logic byte_valid, byte_ready, frame_q;
   logic [7:0] byte_data;

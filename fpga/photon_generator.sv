@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of TDC timestamps without a sensor: pseudo-random photons of a target that each pixel has, and of the background.
+// Source of lines of TDC timestamps without a sensor: pseudo-random photons of each pixel's target, and of the background.
 //
 // In every acquisition a pixel has
-//   - an event of its target in one of four, at target + a + b - 31, where a and b are uniform in 0 to 31: a triangular pulse
-//     of 32 codes' width at half its height; what falls out of the codes is no detection;
-//   - an event of the background in one of two, uniform over all codes.
-// The earlier one is in slot 0, the other in slot 1. All randomness is one xorshift register (Marsaglia 2003: shifts 13, 17,
-// 5), stepped once a pixel. Targets begin as a ramp over the pixels, TARGET_FIRST + pixel x TARGET_STEP, and are written
+//   - with a probability of 1/4 an event of its target, at target + a + b - 31, where a and b are uniform in 0 to 31: a triangular
+//     pulse with a width of 32 codes at half its height; an event outside the codes is no detection;
+//   - with a probability of 1/2 an event of the background, uniform over all codes.
+// The earlier event is in slot 0, the other in slot 1. All randomness comes from one xorshift register (Marsaglia 2003: shifts 13, 17,
+// 5), with one step per pixel. Targets begin as a ramp over the pixels, TARGET_FIRST + pixel x TARGET_STEP, and are written
 // through target_*; pixel = row x COLUMNS + column.
 //
-// | clock of a pixel | what happens |
-// | 0 | its target is read |
-// | 1 | the random register gives its bits: both codes are registered |
-// | 2 | they are put in order and shifted into the row's two lines |
+// | clock of a pixel | work |
+// | 0 | read the pixel's target |
+// | 1 | draw random bits; register both codes |
+// | 2 | sort the codes and shift them into the row's two lines |
 //
-// Rate: two lines every COLUMNS + 4 clocks, if the sink takes them. The stream obeys AXI4-Stream; tlast ends an acquisition.
+// Latency: 3 clocks from the read of a target to its codes in the lines. Rate: two lines every COLUMNS + 4 clocks, if the sink takes
+// them. The stream obeys AXI4-Stream; tlast ends an acquisition.
 // Cost: a memory of ROWS x COLUMNS targets, the two lines, 32 bits of the random register.
 `include "dtof_macros.svh"
 
@@ -90,7 +91,7 @@ module photon_generator #(
     end
   end
 
-  // Targets. One that is written waits until none is read.
+  // Targets. A written target is stored when no target is read.
 
   logic fill, write_q, write;
   logic [PIXEL_WIDTH-1:0] write_pixel_q;
@@ -153,9 +154,9 @@ module photon_generator #(
     end
   end
 
-  // Events: bits 1:0 whether of the target, 6:2 and 11:7 its place, bit 12 whether of the background, from bit 13 its place.
+  // Events: bits 1:0 select an event of the target, bits 6:2 and 11:7 its position; bit 12 selects an event of the background, bits from 13 on its position.
 
-  logic [NP+1:0] place;  // the sign at the top
+  logic [NP+1:0] place;  // the sign is the highest bit
   logic target_here;
   logic [NP-1:0] target_event_q, background_event_q;
 
@@ -169,7 +170,7 @@ module photon_generator #(
     end
   end
 
-  // The row's lines: column 0 has moved to the lowest bits when the last column has come.
+  // Lines of the row. After the last column, column 0 has been shifted to the lowest bits.
 
   logic target_first;
   logic [COLUMNS*NP-1:0] first_q, second_q, line;

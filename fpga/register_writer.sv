@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// In the place of a processor: writes the registers of dtof_subsystem once behind the reset, so that it reads frames without
-// an end.
+// Replaces a processor: writes the registers of dtof_subsystem once after reset, so that it reads frames continuously.
 //
-// Order: ACQUISITIONS, WEAK_BELOW, poolPointer's schedule (COARSE_END, TRACK_END, as dtof_pool_pointer_array recommends)
-// where there is one, CONTROL with START and CONTINUOUS.
-// Schedule: a write takes APB's two clocks and what the slave waits.
+// Order: ACQUISITIONS, WEAK_BELOW, with poolPointer its schedule (COARSE_END, TRACK_END, as dtof_pool_pointer_array recommends),
+// CONTROL with START and CONTINUOUS.
+// Schedule: a write takes the two clocks of APB, and the wait states of the slave. Latency: the first write begins after reset.
 // Cost: five state bits.
 
 // verilator lint_off TIMESCALEMOD

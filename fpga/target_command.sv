@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three bytes write a pixel's target: 128 + pixel, then the code's bits 13:7, then its bits 6:0. Only the first has its
-// highest bit set, so that a byte that was lost costs one command.
+// Decodes commands of three bytes that write a pixel's target: 128 + pixel, then bits 13:7 of the code, then bits 6:0. Only the first
+// byte has its highest bit set, so that a lost byte damages one command only.
 //
-// Schedule: write_o is high for one clock, behind the third byte.
+// Schedule: write_o is high for one clock. Latency: one clock after the third byte.
 // Cost: pixel, half a code, two state bits.
 `include "dtof_macros.svh"
 
@@ -26,7 +26,7 @@ module target_command #(
   `DTOF_REQUIRE(g_illegal_pixels, PIXELS <= 128, "target_command: PIXELS must be at most 128")
   `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 14, "target_command: NP must be 8 to 14")
 
-  logic [1:0] bytes_q;  // of a command that have come
+  logic [1:0] bytes_q;  // bytes of the present command so far
   logic [6:0] pixel_q;
   logic [13:0] code_q;
   logic write_q;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes from a serial line (uart_transmitter has the format). The line belongs to no clock: two flip-flops bring it here.
+// Receives bytes from a serial line (format: uart_transmitter.sv). The line is asynchronous to clk_i; two flip-flops synchronise it.
 //
-// Schedule: each bit is sampled in its middle; valid_o is high for one clock in the middle of the stop bit. A byte whose
-// stop bit is 0 is not reported.
-// Cost: eight bits to shift, two counters, two flip-flops.
+// Schedule: each bit is sampled in its middle; valid_o is high for one clock in the middle of the stop bit. A byte with a stop
+// bit of 0 is not reported.
+// Latency: nine and a half bits from the start bit to valid_o. Cost: a shift register of eight bits, two counters, two flip-flops.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -14,7 +14,7 @@ module uart_receiver #(
 ) (
     input  logic       clk_i,
     input  logic       rst_ni,
-    input  logic       rx_i,     // of any clock
+    input  logic       rx_i,     // asynchronous to clk_i
     output logic       valid_o,
     output logic [7:0] data_o
 );
@@ -25,7 +25,7 @@ module uart_receiver #(
   `DTOF_REQUIRE(g_illegal_clocks, CLOCKS_PER_BIT >= 4, "uart_receiver: CLOCKS_PER_BIT must be at least 4")
 
   logic meta_q, line_q, busy_q, sample;
-  logic [3:0] bit_q;  // 0: the start bit
+  logic [3:0] bit_q;  // 0: start bit
   logic [COUNT_WIDTH-1:0] count_q;
   logic [7:0] shift_q;
 
@@ -50,7 +50,7 @@ module uart_receiver #(
       end else begin
         count_q <= COUNT_WIDTH'(CLOCKS_PER_BIT - 1);
         bit_q <= bit_q + 1'b1;
-        // A start bit that is gone in its middle was none.
+        // A start bit that is no longer 0 in its middle is ignored.
         busy_q <= (bit_q == '0) ? !line_q : (bit_q != STOP_BIT);
       end
     end

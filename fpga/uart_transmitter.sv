@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes to a serial line: a start bit (0), eight data bits from the lowest on, a stop bit (1).
+// Sends bytes to a serial line: a start bit (0), eight data bits from the lowest on, a stop bit (1).
 //
-// Schedule: a byte is taken when the line is free; it takes ten bits of CLOCKS_PER_BIT clocks.
-// Cost: ten bits to shift, two counters.
+// Schedule: a byte is accepted when the line is free; it takes ten bits of CLOCKS_PER_BIT clocks each.
+// Latency: one clock from acceptance to the start bit. Cost: a shift register of ten bits, two counters.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -24,8 +24,8 @@ module uart_transmitter #(
 
   `DTOF_REQUIRE(g_illegal_clocks, CLOCKS_PER_BIT >= 4, "uart_transmitter: CLOCKS_PER_BIT must be at least 4")
 
-  logic [FRAME_BITS-1:0] shift_q;  // the line is its lowest bit
-  logic [3:0] bits_q;              // that are still to send
+  logic [FRAME_BITS-1:0] shift_q;  // the lowest bit drives the line
+  logic [3:0] bits_q;              // bits still to send
   logic [COUNT_WIDTH-1:0] count_q;
 
   assign ready_o = (bits_q == '0);

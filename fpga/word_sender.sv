@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Result words of dtof_subsystem as bytes for a serial line: nine for each word, seven bits in each, the lowest first.
-// The highest bit of a byte is set in a word's first one alone, so that a receiver finds the words. Bits 60:0 are the
-// word's, bit 61 is tuser, bit 62 tlast.
+// Splits result words of dtof_subsystem into bytes for a serial line: nine bytes per word, seven bits in each, the lowest first.
+// Only the first byte of a word has its highest bit set, so that a receiver finds the words. Bits 60:0 are those of the word,
+// bit 61 is tuser, bit 62 tlast.
 //
-// Schedule: a word is taken when the one before is sent.
-// Cost: 63 bits to shift, a counter.
+// Schedule: a word is accepted when the word before is sent. Latency: one clock from acceptance to the first byte.
+// Cost: a shift register of 63 bits, a counter.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -25,7 +25,7 @@ module word_sender (
   localparam logic [3:0] BYTES = 4'd9;
 
   logic [62:0] shift_q;
-  logic [3:0] bytes_q;  // that are still to send
+  logic [3:0] bytes_q;  // bytes still to send
 
   assign s_axis_tready_o = (bytes_q == '0);
   assign valid_o = (bytes_q != '0);

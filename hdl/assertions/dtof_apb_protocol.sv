@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // APB4 as concurrent assertions and covers, for simulators that have them. Synthesis does not read this folder.
 //
-// Assertions: an access follows the clock of its setup, and each access has one; address, direction, data and strobes stay the same until
-// pready; pslverr comes with pready alone. penable without psel is an access of another slave.
+// Assertions: each access follows its setup in the next clock, and each access has a setup; address, direction, data and strobes are stable
+// until pready; pslverr is high only with pready. penable without psel is an access to another slave.
 // Source: AMBA APB Protocol Specification (IHI 0024), sections 3 and 4.
 // Covers: a write, a read, an access with wait states, a refused access, two transfers in a row.
-// Cost: none in silicon.
+// Latency: none. Cost: none in silicon.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

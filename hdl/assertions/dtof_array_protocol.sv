@@ -2,17 +2,17 @@
 // The ports of an array (dtof_array, dtof_pool_pointer_array) as concurrent assertions and covers, for simulators that have them.
 // Synthesis does not read this folder.
 //
-// Assertions: a start in an idle array makes it busy in the next clock; it stays busy until done; done is one clock within busy; an
-// acquisition that has begun has a line in each of its LINES clocks; the array is ready throughout.
+// Assertions: a start in an idle array makes it busy in the next clock; it stays busy until done; done is high for one clock within busy;
+// an acquisition that has begun has a line in each of its LINES clocks; the array is ready during all of them.
 // Source: docs/user/integration.md, ports of an array.
 // Covers: a frame, two frames in a row, a start while busy, acquisitions in a row, a pause between acquisitions.
-// Cost: none in silicon.
+// Latency: none. Cost: none in silicon.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module dtof_array_protocol #(
-    parameter int LINES = 4  // of an acquisition
+    parameter int LINES = 4  // lines of an acquisition
 ) (
     input logic clk_i,
     input logic rst_ni,
@@ -25,7 +25,7 @@ module dtof_array_protocol #(
 
   localparam int WIDTH = $clog2(LINES + 1);
 
-  logic [WIDTH-1:0] line_q;  // lines of the acquisition that is under way, which have come
+  logic [WIDTH-1:0] line_q;  // lines received of the present acquisition
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

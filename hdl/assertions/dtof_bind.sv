@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binds the protocols' assertions and covers to every array and subsystem of a simulation: dtof_assertions.f, behind dtof.f.
+// Binds the assertions and covers of the protocols to every array and subsystem of a simulation. dtof_assertions.f comes after dtof.f.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

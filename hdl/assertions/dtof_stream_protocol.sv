@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // An AXI4-Stream as concurrent assertions and covers, for simulators that have them. Synthesis does not read this folder.
 //
-// Assertions: from tvalid without tready on, tvalid stays high and the data stay the same until tready; tvalid and tready are known.
+// Assertions: after tvalid without tready, tvalid stays high and the data are stable until tready; tvalid and tready are not X or Z.
 // Source: AMBA AXI4-Stream Protocol Specification, section 2.2.1.
 // Covers: a transfer at once, a transfer that was held up, two transfers in a row, a pause, the last word of a packet.
 // WHOSE names the side that breaks a rule in the message.
-// Cost: none in silicon.
+// Latency: none. Cost: none in silicon.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

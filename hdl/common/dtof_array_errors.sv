@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of a master that breaks the array's contract, once per array. Each bit is high for one clock per error, the clock
-// after the error. To keep a bit, store it in a register outside of the array.
+// Reports the errors of a master that violates the array's contract, once per array. Each bit is high for one clock per error. To keep
+// a bit, store it in a register outside the array.
 //
+// Bits:
 //   ERROR_UNDERRUN          tdc_valid_i was low in a clock inside an acquisition: the pixel counts as not detected
-//   ERROR_START_IGNORED     start_i while busy_o: nothing happens
-//   ERROR_ILLEGAL_SCHEDULE  a frame began with a schedule whose ends are not in order, or a raw one with rows that are not: its
-//                           results mean nothing
+//   ERROR_START_IGNORED     start_i came while busy_o was high: it has no effect
+//   ERROR_ILLEGAL_SCHEDULE  a frame began with a schedule whose ends are not in order, or a raw frame with rows that are not in
+//                           order: the results of this frame have no meaning
 //
-// Latency: one clock. Cost: three flip-flops.
+// Latency: one clock from the error to its bit. Cost: three flip-flops.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

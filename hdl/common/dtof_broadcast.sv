@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Registers between the shared logic and all columns: STAGES registers for each signal.
 //
-// The array is several millimetres wide and the shared logic sits in its middle, so that the first register belongs beside
-// the logic that it is fed from, and the last beside the columns. A layout (and the flow of `make synth`) gives each group
-// of neighbouring columns its own copy of the last register. Timestamps, which come from above their columns, wait there for
-// as many clocks (dtof_timestamp_input.sv), so that timestamps and commands stay aligned.
+// The array is several millimetres wide and the shared logic is in its middle. The first register belongs beside the logic that
+// drives it, and the last register beside the columns. A layout (and the flow of `make synth`) gives each group of neighbouring
+// columns its own copy of the last register. Timestamps come from above their columns and are delayed there by the same number of
+// clocks (dtof_timestamp_input.sv), so that timestamps and commands stay aligned.
 //
 // Latency: STAGES clocks.
 // Cost: STAGES flip-flops per bit.
@@ -15,7 +15,7 @@
 
 module dtof_broadcast #(
     parameter int WIDTH = 1,
-    parameter int STAGES = 2  // registers on the way, at least 1
+    parameter int STAGES = 2  // registers from input to output, at least 1
 ) (
     input  logic             clk_i,
     input  logic             rst_ni,

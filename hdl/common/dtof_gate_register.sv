@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time gate of a frame: the ports' values when the frame began, once per array.
+// Stores the time gate of a frame, once per array.
 //
-// Equation: gate = the ports in the clock in which start_i is taken, which is while busy_i is low.
+// Equation: gate = values of the ports in the clock of a start_i while busy_i is low.
 // Latency: one clock, long before the first timestamp can come.
-// Cost: 2 NP flip-flops; with TIME_GATE = 0 none, and the gate reads as zero.
+// Cost: 2 NP flip-flops; with TIME_GATE = 0 none, and the outputs are 0.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks that mean the same to Verilator, Yosys and Icarus Verilog 11.
+// Checks and types that have the same meaning for Verilator, Yosys and Icarus Verilog 11.
 `ifndef DTOF_MACROS_SVH
 `define DTOF_MACROS_SVH
 
-// Illegal parameters stop elaboration with a sentence. Yosys 0.23 takes the sentence as the first argument.
+// DTOF_REQUIRE: an illegal parameter stops elaboration with a message. Yosys 0.23 takes the message as the first argument.
 // Icarus 11 has no elaboration task, and Verilator continues with -Wno-fatal: in both, the simulation stops at time 0.
 `ifdef YOSYS
 `define DTOF_REQUIRE(LABEL, CONDITION, SENTENCE) \
@@ -23,8 +23,8 @@
   end endgenerate
 `endif
 
-// Types of a package: `DTOF_TYPES_OF(PACKAGE) stands behind the name of a module that has such types, `DTOF_TYPE(PACKAGE, NAME) where a
-// type stands. Icarus Verilog 11 takes a package's type by import alone, Yosys 0.23 by its full name alone.
+// Types of a package: write `DTOF_TYPES_OF(PACKAGE) after the name of a module that uses such types, and `DTOF_TYPE(PACKAGE, NAME) in place
+// of a type. Icarus Verilog 11 accepts a package's type only after an import, Yosys 0.23 only by its full name.
 `ifdef __ICARUS__
 `define DTOF_TYPES_OF(PACKAGE) import PACKAGE::*;
 `define DTOF_TYPE(PACKAGE, NAME) NAME
@@ -33,10 +33,10 @@
 `define DTOF_TYPE(PACKAGE, NAME) PACKAGE::NAME
 `endif
 
-// A property that holds in every clock outside reset: alive in simulation, proved by make formal, absent in
+// DTOF_ASSERT: a property that holds in every clock outside reset: checked in simulation, proved by make formal, removed by
 // synthesis. A violation ends an Icarus simulation; under Verilator --assert it calls the stop hook.
-// DTOF_ASSERT_AS_IF is for the speed of tb_cpp: the C++ of Verilator 5.006 expects an assert to fail, and an if with a $error
-// to be rare.
+// DTOF_ASSERT_AS_IF makes tb_cpp faster: the C++ of Verilator 5.006 is laid out for an assert that fails, and for an if with a
+// $error that is rare.
 `ifdef FORMAL
 `define DTOF_ASSERT(LABEL, CONDITION, SENTENCE) \
   always @(posedge clk_i) begin \

@@ -3,12 +3,13 @@
 //
 // 1. With PARITY = 1 a word is stored with the XOR of its bits. A word that is read with an odd number of wrong bits raises error_o;
 //    read_data_o has the wrong word. An even number of wrong bits has no effect on error_o.
-// 2. With PARITY = 0 this is a dtof_sram and nothing else.
+// 2. With PARITY = 0 this module is a dtof_sram and nothing else.
 //
-// Contract: that of dtof_sram, and every word that is read was written before. With PORTS = 2 no address is read in the clock in
+// Contract: that of dtof_sram; in addition, a word is written before it is read. With PORTS = 2 an address is not read in the clock in
 // which it is written.
 // Schedule: read_en_i in clock 0, data in clock 1, error_o in clock 2 for one clock, from a flip-flop.
-// Cost with PARITY = 1: a bit a word, two trees of WIDTH XORs, two flip-flops.
+// Latency: 1 clock to the data, 2 clocks to error_o.
+// Cost with PARITY = 1: one bit per word, two trees of WIDTH XORs, two flip-flops.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -17,7 +18,7 @@
 module dtof_parity_sram #(
     parameter int PORTS = 2,
     parameter int DEPTH = 160,  // words
-    parameter int WIDTH = 10,   // bits a word, without parity
+    parameter int WIDTH = 10,   // bits of a word without parity
     parameter int PARITY = 0,   // 1: each word has a parity bit
     localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
 ) (

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Read-outs (dtof_readouts.svh) and the sizes that follow from a read-out's parameters (docs/reference/readouts.md).
+// Constants and functions of the arrays: numbers of the read-outs (dtof_readouts.svh), sizes that follow from a read-out's parameters
+// (docs/reference/readouts.md), and latencies of modules. Cost: none; everything is evaluated at elaboration.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -24,18 +25,18 @@ package dtof_pkg;
   localparam int ERROR_ILLEGAL_SCHEDULE = 2;
   localparam int ERROR_WIDTH = 3;
 
-  // Width of the side band from the top to every SRAM macro and back. The tool's macro sets it as the process's SRAMs need it.
+  // Width of the side band from the top to every SRAM macro and back. Define DTOF_SRAM_CFG_WIDTH for SRAMs that need more bits.
 `ifdef DTOF_SRAM_CFG_WIDTH
   localparam int SRAM_CFG_WIDTH = `DTOF_SRAM_CFG_WIDTH;
 `else
   localparam int SRAM_CFG_WIDTH = 1;
 `endif
 
-  // Clocks that a module takes, port to port, for the sequencer that drives it. Each is the named module's own.
+  // Latencies of modules in clocks, from port to port, for the sequencers that drive the modules.
   localparam int HISTOGRAM_WRITE_STAGE = 5;          // dtof_histogram_builder: a timestamp of T0 is written at T5
   localparam int POOL_PAIR_READ_CLOCKS = 2;          // dtof_pool_pair: from read_i to word_o, and to a write with it
   localparam int POOL_LINE_CLOCKS = 1;               // dtof_pool_line: from the pairs' words to the engine's line_i
-  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // dtof_pool_engine: from line_i to what its commands find on the line, but for decode
+  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // dtof_pool_engine: from line_i to the line that its commands use, except in decode
   localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // dtof_pool_engine: from read_scratch to the message
   localparam int POOL_ENGINE_RESULT_CLOCKS = 1;      // dtof_pool_engine: from take_result to result_o
   localparam int POOL_DECODER_CANDIDATE_CLOCKS = 2;  // dtof_pool_candidate_decoder: from a turn's last pair to its candidate
@@ -75,7 +76,7 @@ package dtof_pkg;
     peak_width = (readout == READOUT_THREESTEPS) ? np - step_shift(np, 2) : nb;
   endfunction
 
-  // Addresses of a pixel's scan in M4: its bins, and the clocks that the result takes behind them.
+  // Addresses of a pixel's scan in M4: its bins, and the clocks of the computation after them.
   function automatic int final_addresses(input int readout, input int np, input int nb, input int fraction_bits);
     final_addresses = (1 << scan_width(readout, np, nb)) + decode_clocks(readout, np, nb, fraction_bits);
   endfunction
@@ -101,19 +102,19 @@ package dtof_pkg;
   localparam int POOL_COARSE_BINS = 32;
   localparam int POOL_CELL_WIDTH = 7;
   localparam int POOL_BACKGROUND_WIDTH = 6;  // 0 .. 39
-  localparam int POOL_FEWEST_BACKGROUND_BITS = 4;  // that a group's word keeps
+  localparam int POOL_FEWEST_BACKGROUND_BITS = 4;  // bits that a group's word stores at least
   localparam int POOL_RIVAL_WIDTH = 7;  // a cell
-  localparam int POOL_SIGNIFICANCE_WIDTH = 3;         // of a candidate, at most
-  localparam int POOL_TEMPLATE_WIDTH = 8;  // of an entry of TEMPLATE
-  localparam int POOL_SIGNIFICANCE_OFFSET_WIDTH = 5;  // of long frames, 0 .. 17
-  localparam int POOL_SKY_WIDTH = 4;                  // a background / 4, for which a sky's margins are known
+  localparam int POOL_SIGNIFICANCE_WIDTH = 3;         // bits of a candidate's significance, at most
+  localparam int POOL_TEMPLATE_WIDTH = 8;  // bits of an entry of TEMPLATE
+  localparam int POOL_SIGNIFICANCE_OFFSET_WIDTH = 5;  // correction for long frames, 0 .. 17
+  localparam int POOL_SKY_WIDTH = 4;                  // background / 4, which selects the statistics of a sky's margins
   localparam int POOL_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
-  localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words an engine reads by way of one register (dtof_pool_line)
-  localparam int POOL_SWEEP_WIDTH = 6;     // the last one of 2^6 acquisitions of the coarse phase is a sweep
-  // Bits of pool_engine_command_t (dtof_pool_pkg). Yosys 0.23 takes $bits of no type, Icarus 11 of no variable that has such a type.
-  // Every lint finds a wrong number.
+  localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words share one register on the way to the engine (dtof_pool_line)
+  localparam int POOL_SWEEP_WIDTH = 6;     // every 2^6-th acquisition of the coarse phase is a sweep
+  // Bits of pool_engine_command_t (dtof_pool_pkg), as a number because Yosys 0.23 has no $bits of a type, and Icarus 11 none of a
+  // variable of such a type. Every lint reports a wrong number.
   localparam int POOL_COMMAND_WIDTH = 65;
-  localparam int POOL_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
+  localparam int POOL_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score minus LABEL_COST, LEFT_COST and RIGHT_LIMIT
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.
   function automatic int pool_pointer_width(input int pointer_shift, input int rival_moves);
@@ -139,15 +140,15 @@ package dtof_pkg;
                                pool_point_width(labels, advantage_width, pointer_shift, rival_moves));
   endfunction
 
-  // Highest bits of a group's background that its word keeps: as many as two pixels' words leave beside the candidates.
+  // Number of bits of a group's background that its word stores, from the highest bit: as many as fit two pixels' words beside the candidates.
   function automatic int pool_background_width(input int labels, input int pixel_width);
     pool_background_width = 2 * pixel_width - POOL_CELL_WIDTH * labels;
     if (pool_background_width < POOL_FEWEST_BACKGROUND_BITS) pool_background_width = POOL_FEWEST_BACKGROUND_BITS;
     if (pool_background_width > POOL_BACKGROUND_WIDTH) pool_background_width = POOL_BACKGROUND_WIDTH;
   endfunction
 
-  // Bits of each candidate's significance that a group's word keeps, 3, 2 or 0: as many as two pixels' words leave beside
-  // candidates, background, with PRIOR which candidates were used, and whether the background is tilted.
+  // Number of bits of each candidate's significance that a group's word stores, 3, 2 or 0: as many as fit two pixels' words beside
+  // candidates, background, with PRIOR = 1 the used candidates, and the flag of a tilted background.
   function automatic int pool_significance_width(input int labels, input int pixel_width, input int advantage_width,
                                                  input int rival_moves, input int prior);
     pool_significance_width = (2 * pixel_width - pool_group_width(labels, pixel_width) - ((prior != 0) ? labels : 0) - 1) / labels;
@@ -160,8 +161,7 @@ package dtof_pkg;
     pool_group_width = POOL_CELL_WIDTH * labels + pool_background_width(labels, pixel_width);
   endfunction
 
-  // An entry of TEMPLATE counts 2^this of a bin's sum over seven histograms, so that the largest entry takes all of the largest
-  // sum.
+  // log2 of the unit of TEMPLATE, in counts of a bin's sum over seven histograms. The largest entry is more than the largest sum.
   function automatic int pool_template_shift(input int count_width);
     pool_template_shift = max_of(count_width - 5, 0);
   endfunction
@@ -173,12 +173,12 @@ package dtof_pkg;
     pool_half_width = max_of(2 * pool_half_width, pool_group_width(labels, pool_half_width));
   endfunction
 
-  // Halves of such a word that POOL_BINS_PER_LINE coarse bins and one bit more need, 1 or 2.
+  // Halves of such a word that POOL_BINS_PER_LINE coarse bins and one more bit need, 1 or 2.
   function automatic int pool_line_halves(input int half_width, input int count_width);
     pool_line_halves = (POOL_BINS_PER_LINE * count_width < half_width) ? 1 : 2;
   endfunction
 
-  // log2 of the parts in which a group's coarse bins are counted, a word each.
+  // log2 of the parts of a group's coarse bins; each part is a word.
   function automatic int pool_part_width(input int line_halves);
     pool_part_width = (line_halves == 1) ? 1 : 2;
   endfunction
@@ -188,18 +188,18 @@ package dtof_pkg;
     pool_confidence_width = $clog2((1 << advantage_width) + 16);
   endfunction
 
-  // Whether a raw histogram can be had: none where scans alone keep a word, the best of several histograms.
+  // Whether a raw histogram exists. It does not if a scan stores a word per pixel, the best of several histograms.
   function automatic bit has_whole_histogram(input int readout, input int np, input int nb);
     has_whole_histogram = has_histogram(readout)
         && (!has_word(readout) || is_word_read_ahead(readout) || coarse_passes(readout, np, nb) == 0);
   endfunction
 
-  // Bins of a raw histogram: of the final pass, or of a pass before it where timestamps move a word there.
+  // Bins of a raw histogram: of the final pass, or of the pass before if timestamps change a word in the final pass.
   function automatic int raw_bins(input int readout, input int np, input int nb);
     raw_bins = 1 << (is_word_moved(readout) ? bin_width(readout, np, nb) : scan_width(readout, np, nb));
   endfunction
 
-  // Bits of a pointer read-out's confidence in a result, which is a count in a raw histogram.
+  // Bits of the confidence in a result of a pointer read-out; the field has a count in a raw histogram.
   function automatic int kept_confidence_width(input int pointer_confidence_width, input int count_width,
                                                input int raw_histogram);
     kept_confidence_width = (raw_histogram != 0) ? max_of(pointer_confidence_width, count_width)

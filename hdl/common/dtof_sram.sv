@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one SRAM that the read-outs instantiate: DEPTH words of WIDTH bits behind PORTS ports.
+// The SRAM of all read-outs: DEPTH words of WIDTH bits behind PORTS ports.
 //
-// Contract (both ports variants): read data one clock after read_en_i; a write is visible to reads in later
-// clocks. PORTS = 2: reading an address in the clock in which it is written returns undefined data.
-// PORTS = 1: a read and a write in one clock are illegal, and read data is undefined after a write.
-// The macros live in the technology folder; nothing else changes for silicon.
+// Contract: read data are valid one clock after read_en_i; a write is visible to reads in later clocks.
+// PORTS = 2: a read of an address in the clock in which it is written returns undefined data.
+// PORTS = 1: a read and a write in one clock are illegal, and read data are undefined after a write.
+// The technology folder has the macros; no other file changes for silicon.
 // +sram_report prints size and organisation at the start of a simulation.
+// Latency: one clock. Cost: one SRAM macro.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -14,7 +15,7 @@
 module dtof_sram #(
     parameter int PORTS = 2,   // 1: one port that reads or writes, 2: one read and one write port
     parameter int DEPTH = 160,  // words
-    parameter int WIDTH = 10,   // bits a word
+    parameter int WIDTH = 10,   // bits of a word
     localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
 ) (
     input  logic                  clk_i,
@@ -69,7 +70,7 @@ module dtof_sram #(
     end
   endgenerate
 
-  // The explicit 32-bit comparison holds for depths that fill the address range, too.
+  // The comparison has 32 bits, so that it also holds for a depth that fills the address range.
   `DTOF_ASSERT(a_read_in_range, !read_en_i || (32'(read_addr_i) < DEPTH), "SRAM read beyond its depth")
   `DTOF_ASSERT(a_write_in_range, !write_en_i || (32'(write_addr_i) < DEPTH), "SRAM write beyond its depth")
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of an AXI4-Stream source as assertions, for simulation and proofs; synthesis leaves it out.
+// Rules of an AXI4-Stream source as assertions, for simulation and proofs; synthesis leaves it out.
 //
-// From tvalid without tready on, tvalid stays high, and tdata and tlast stay the same, until tready.
-// Cost: none in silicon.
+// Rule: after tvalid without tready, tvalid stays high and tdata and tlast stay unchanged until tready.
+// Latency: none. Cost: none in silicon.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input of a column's timestamps: it selects the detections, delays them by as many clocks as the commands of the shared logic
-// take to the column and, with TIME_GATE = 1, contains the digital time gate.
+// Input of a column's timestamps: selects the detections, delays them by as many clocks as commands of the shared logic take to reach
+// the column and, with TIME_GATE = 1, applies the digital time gate.
 //
 // Equation: a detection is a timestamp x that is not all ones and, with the gate, gate_begin_i <= x < gate_end_i.
 // Commands take STAGES clocks to reach a column (dtof_broadcast.sv). Timestamps are delayed by the same number of clocks, so that
@@ -22,20 +22,20 @@
 module dtof_timestamp_input #(
     parameter int NP = 10,
     parameter int TIME_GATE = 0,
-    parameter int STAGES = 2  // clocks that a command is on its way, at least 1
+    parameter int STAGES = 2  // clocks from the array's control to the column, at least 1
 ) (
     input  logic          clk_i,
     input  logic [NP-1:0] timestamp_i,    // all ones: no detection
     input  logic [NP-1:0] gate_begin_i,
     input  logic [NP-1:0] gate_end_i,
-    output logic          detected_t0_o,  // combinational with the gate
+    output logic          detected_t0_o,  // combinational if TIME_GATE = 1
     output logic          detected_t1_o,
-    output logic [NP-1:0] timestamp_t1_o  // of the last detection
+    output logic [NP-1:0] timestamp_t1_o  // last detection
 );
 
   `DTOF_REQUIRE(g_illegal_stages, STAGES >= 1, "dtof_timestamp_input: STAGES must be at least 1")
 
-  // [s]: s clocks behind the port, before the gate. What goes into the register of T1 is behind it.
+  // [s]: s clocks after the port, before the gate. [STAGES] is at the input of the register of T1.
   logic [STAGES:0] detected;
   logic [(STAGES+1)*NP-1:0] timestamps;
   logic in_gate, detected_q;

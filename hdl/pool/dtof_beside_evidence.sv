@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: what speaks for each candidate of a pixel: its score, and what the columns beside say.
+// poolPointer, choose: evidence for each candidate of a pixel, from the pixel's scores and from the columns to the left and right.
 //
-// Equations (docs/reference/poolpointer.md, Choose): E(k) = score[k] - (k >= 2 ? B >> 3 : 0) - from_left - from_right.
-// A candidate more than four cells from the one chosen in the column to the left pays 2 + (3 B >> 4). One more than four
-// cells from the best candidate of the pixel to the right pays 1 + (3 B >> 4), but no more than the best one of that
-// pixel is ahead of its second one if it is near the second one.
+// Equations (docs/reference/poolpointer.md, Choose): E(k) = score[k] - (k >= 2 ? B >> 3 : 0) - from_left - from_right, B the
+// background of the pixel's group. from_left is 2 + (3 B >> 4) if the candidate is more than four cells from the candidate chosen
+// in the column to the left, otherwise 0. from_right is 0 if the candidate is within four cells of the best candidate of the pixel
+// to the right; otherwise it is 1 + (3 B >> 4), limited to the lead of that pixel's best candidate over its second candidate if
+// the candidate is within four cells of the second.
 //
-// 1. The word of the pixel to the right is taken, then its group's cells; its candidates are ranked, one a clock.
-// 2. The pixel itself is taken with advance_i.
-// 3. Its candidates pass, one a clock, are compared with the three cells, and leave their evidence in the next clock.
+// 1. take_right_pixel loads the scores of the pixel to the right. first_rank loads the cells of its group; the module ranks the
+//    candidates, one per clock, and keeps the best two.
+// 2. advance_i loads the pixel itself. take_ranks registers the two costs and the two cells of the pixel to the right.
+// 3. compare compares the pixel's candidates, one per clock, with the three cells. Each candidate's evidence follows in the next clock.
 //
-// Schedule: the table of dtof_pool_sequencer; evidence_o and cells_o hold from the clock after the last comparison until
-//   advance_i, which may come in that clock.
+// Schedule: the table of dtof_pool_sequencer. Latency: 1 clock from compare to a candidate's evidence. evidence_o and cells_o hold
+//   from the clock after the last compare until advance_i, which may be given in that same clock.
 // Cost: three comparators of cells, some 150 flip-flops at the defaults, per engine.
 
 `include "dtof_macros.svh"
@@ -21,22 +23,22 @@
 
 module dtof_beside_evidence `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int LABELS = 5,      // candidates of a group
-    parameter int SCORE_BITS = 4,  // of each
+    parameter int SCORE_BITS = 4,  // bits of a candidate's score
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH,
-    localparam int GROUP_WIDTH = LABELS * CELL_WIDTH + BACKGROUND_WIDTH,  // candidates and the whole background
+    localparam int GROUP_WIDTH = LABELS * CELL_WIDTH + BACKGROUND_WIDTH,  // all cells, and the background with all bits
     localparam int EVIDENCE_WIDTH = dtof_pkg::POOL_EVIDENCE_WIDTH
 ) (
     input  logic                             clk_i,
     input  `DTOF_TYPE(dtof_pool_pkg, beside_command_t) command_i,
-    // the pixel to the right: its scores with take_right_pixel, its group's word with first_rank
+    // pixel to the right: its scores with take_right_pixel, its group's word with first_rank
     input  logic [    LABELS*SCORE_BITS-1:0] right_scores_i,
-    input  logic                             has_right_i,     // there is a column to the right
-    // the pixel prepared, taken with advance_i, and its group's word
+    input  logic                             has_right_i,     // a column to the right exists
+    // pixel to prepare, loaded with advance_i, and its group's word
     input  logic                             advance_i,
     input  logic [    LABELS*SCORE_BITS-1:0] scores_i,
-    input  logic [          GROUP_WIDTH-1:0] group_i,         // {B, cells}; also that of the pixel to the right
-    input  logic [           CELL_WIDTH-1:0] left_cell_i,     // with compare: chosen in the column to the left
+    input  logic [          GROUP_WIDTH-1:0] group_i,         // {B, cells}; with first_rank of the group of the pixel to the right
+    input  logic [           CELL_WIDTH-1:0] left_cell_i,     // with compare: cell chosen in the column to the left
     output logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_o,      // signed
     output logic [    LABELS*CELL_WIDTH-1:0] cells_o,
     output logic [     BACKGROUND_WIDTH-1:0] background_o
@@ -54,7 +56,7 @@ module dtof_beside_evidence `DTOF_TYPES_OF(dtof_pool_pkg) #(
     far = (distance > REACH) || (distance < -REACH);
   endfunction
 
-  // The pixel to the right: its best two candidates, the lower one on a tie.
+  // Pixel to the right: its best two candidates; on a tie the candidate with the lower number.
 
   logic [LABELS*SCORE_BITS-1:0] right_scores_q;
   logic [LABELS*CELL_WIDTH-1:0] right_cells, right_cells_q;
@@ -69,7 +71,7 @@ module dtof_beside_evidence `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign right_score = $signed(EVIDENCE_WIDTH'(right_scores_q[SCORE_BITS-1:0]));
   assign lateness = command_i.late_rank ? $signed(EVIDENCE_WIDTH'(right_lateness_q)) : '0;
 
-  // Compared with one addition instead of a subtraction and then a comparison.
+  // Adds the costs on the other side of the comparison, so that one addition replaces a subtraction and a comparison.
   assign to_best = (EVIDENCE_WIDTH + 1)'(best_q) + (EVIDENCE_WIDTH + 1)'(lateness) - (EVIDENCE_WIDTH + 1)'(right_score);
   assign to_second = (EVIDENCE_WIDTH + 1)'(second_q) + (EVIDENCE_WIDTH + 1)'(lateness)
       - (EVIDENCE_WIDTH + 1)'(right_score);
@@ -98,7 +100,7 @@ module dtof_beside_evidence `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // What the columns beside can say at most.
+  // Costs of a disagreement with the columns to the left and right.
 
   logic [BACKGROUND_WIDTH-1:0] background_q;
   logic [BACKGROUND_WIDTH+1:0] three_backgrounds;
@@ -121,7 +123,7 @@ module dtof_beside_evidence `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // The pixel prepared.
+  // The prepared pixel.
 
   logic [LABELS*SCORE_BITS-1:0] scores_q;
   logic [LABELS*CELL_WIDTH-1:0] cells_q;

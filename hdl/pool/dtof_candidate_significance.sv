@@ -1,37 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: how far a candidate stands out from the sums around it, 0 to 7.
+// poolPointer, decode: significance of a candidate, 0 to 7: how far its pair sum stands out from the pair sums around it.
 //
 // Equation (docs/reference/poolpointer.md, Significance): S is the sum of the pair sums three and four pairs below and above
-// the candidate's, D = 4 w - S, V = S + S / 8 + 64; Z = (2 lg(D) - lg(V) - 36 - offset - 4 missing) / 4, 0 to 7. Where the
-// range ends, the other side's two sums stand for both, an eighth larger below, where light tilts the background.
+// the candidate's pair sum w. D = 4 w - S, V = S + S / 8 + 64, Z = (2 lg(D) - lg(V) - 36 - offset - 4 missing) / 4, limited to 0 to 7.
+// Near an end of the range the two sums of the other side replace those that do not exist; near the lower end they are increased by
+// an eighth, because the background is higher there in strong light.
 //
-// 1. While the decoder's ring turns, the sums around the pair that comes to its head next are added up.
-// 2. With each pair that is better than all before in its turn, the sums around it are kept.
-// 3. In the next turn's first four clocks D and V are found, their logarithms, and Z.
+// 1. While the decoder's ring turns, registers hold the two sums around the pair that reaches the head next.
+// 2. When a pair is larger than all pairs before it in the turn, the sums around it are kept.
+// 3. The first four clocks of the next turn compute S, then D and V, then the logarithms, then Z.
 //
-// Schedule: ahead_i and behind_i in all clocks; better_i with the pair at the head; new_peak_i in a turn's first clock, whose
-// peak_i is that of the turn before; significance_o three clocks later, for one clock.
+// Schedule: ahead_i and behind_i are valid in every clock, better_i in the clock of its pair at the head, new_peak_i in the first
+// clock of a turn, together with pair_i and peak_i of the turn before. Latency: significance_o is valid for one clock, three clocks
+// after new_peak_i.
 // Cost: 11 adders, about 120 flip-flops, per engine.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module dtof_candidate_significance #(
-    parameter int SUM_WIDTH = 11,  // of a pair sum
-    parameter int KEPT_WIDTH = 3,  // bits of the significance that are kept, 2 or 3
+    parameter int SUM_WIDTH = 11,  // bits of a pair sum
+    parameter int KEPT_WIDTH = 3,  // bits of the significance that the group's word stores, 2 or 3
     localparam int OFFSET_WIDTH = dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH
 ) (
     input  logic                    clk_i,
     input  logic                    active_i,
-    input  logic [ 2*SUM_WIDTH-1:0] ahead_i,    // the sums four and five pairs beyond the head
-    input  logic [ 2*SUM_WIDTH-1:0] behind_i,   // the sums two and three pairs before the head
-    input  logic                    better_i,   // the pair at the head is the largest so far
+    input  logic [ 2*SUM_WIDTH-1:0] ahead_i,    // pair sums four and five pairs after the head
+    input  logic [ 2*SUM_WIDTH-1:0] behind_i,   // pair sums two and three pairs before the head
+    input  logic                    better_i,   // the pair at the head is the largest of the turn so far
     input  logic                    new_peak_i,
-    input  logic [             4:0] pair_i,     // of the peak, + 1
-    input  logic [   SUM_WIDTH-1:0] peak_i,     // its sum
-    input  logic [   SUM_WIDTH-1:0] raised_i,   // how much of it the last frame has added
-    input  logic [             2:0] missing_i,  // neighbours that the group does not have
-    input  logic [OFFSET_WIDTH-1:0] offset_i,   // of long frames
+    input  logic [             4:0] pair_i,     // pair of the peak, + 1
+    input  logic [   SUM_WIDTH-1:0] peak_i,     // pair sum of the peak
+    input  logic [   SUM_WIDTH-1:0] raised_i,   // part of peak_i that comes from the last frame (PRIOR)
+    input  logic [             2:0] missing_i,  // number of neighbours that the group lacks
+    input  logic [OFFSET_WIDTH-1:0] offset_i,   // correction for long frames (dtof_significance_offset)
     output logic [  KEPT_WIDTH-1:0] significance_o
 );
 
@@ -41,11 +43,11 @@ module dtof_candidate_significance #(
   localparam int VARIANCE_WIDTH = AROUND_WIDTH + 1;
   localparam int HEIGHT_LOGARITHM_WIDTH = 3 + dtof_pkg::index_width(HEIGHT_WIDTH);
   localparam int VARIANCE_LOGARITHM_WIDTH = 3 + dtof_pkg::index_width(VARIANCE_WIDTH);
-  localparam int SQUARE_WIDTH = 8;  // costs are at most 127 + 36 + 31 + 16
+  localparam int SQUARE_WIDTH = 8;  // the subtracted terms are at most 127 + 36 + 31 + 16
   localparam logic [4:0] FIRST_WITH_LOW = 5'd5;
   localparam logic [4:0] LAST_WITH_HIGH = 5'd27;
   localparam int LEAST_VARIANCE = 64;
-  localparam int SCALE = 36;  // D is four times the height, V twice its variance, and the first level is at z = 1.7
+  localparam int SCALE = 36;  // D is four times the height, V twice its variance, and level 1 begins at 1.7 standard deviations
 
   logic [TWO_WIDTH-1:0] low_q, high_q, peak_low_q, peak_high_q;
 
@@ -59,7 +61,7 @@ module dtof_candidate_significance #(
     end
   end
 
-  // The first clock of a turn: what is around the peak.
+  // First clock of a turn: the sums around the peak.
 
   logic has_low, has_high;
   logic [AROUND_WIDTH-1:0] one, other, around_q;
@@ -82,7 +84,7 @@ module dtof_candidate_significance #(
     end
   end
 
-  // The second one: D and V.
+  // Second clock: D and V.
 
   logic signed [HEIGHT_WIDTH+1:0] height;
   logic [HEIGHT_WIDTH-1:0] height_q;
@@ -97,7 +99,7 @@ module dtof_candidate_significance #(
     end
   end
 
-  // The third one: their logarithms.
+  // Third clock: logarithms of D and V.
 
   logic [HEIGHT_LOGARITHM_WIDTH-1:0] height_logarithm, height_logarithm_q;
   logic [VARIANCE_LOGARITHM_WIDTH-1:0] variance_logarithm;
@@ -127,7 +129,7 @@ module dtof_candidate_significance #(
     end
   end
 
-  // The fourth one.
+  // Fourth clock: Z.
 
   logic signed [SQUARE_WIDTH:0] square;
   logic [2:0] significance;
@@ -136,7 +138,7 @@ module dtof_candidate_significance #(
       - $signed({1'b0, costs_q});
   assign significance = (!above_q || square < 0) ? 3'd0 : (square > 31) ? 3'd7 : square[4:2];
 
-  // In two bits the upper levels: 3 and 4, 5 and 6, 7.
+  // Two bits store pairs of levels: 0 to 2 become 0, 3 and 4 become 1, 5 and 6 become 2, 7 becomes 3.
   assign significance_o = (KEPT_WIDTH == 3) ? KEPT_WIDTH'(significance)
       : (significance == 3'd0) ? '0 : KEPT_WIDTH'((significance - 3'd1) >> 1);
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: the entry of TEMPLATE for the bin that the engines add up, and whether it hides the bin; for all engines.
+// poolPointer, decode: selects the entry of TEMPLATE that all engines subtract from a bin's sum, and says whether the bin is hidden.
 //
-// Equation (docs/reference/poolpointer.md, Template): bin i's sum over a group and its neighbours falls by TEMPLATE[i] units. One of the
-// first 7 bins is hidden if its entry is 128 or more.
+// Equation (docs/reference/poolpointer.md, Template): the sum of bin i over a group and its neighbours is reduced by TEMPLATE[i]
+// units. A bin below 7 is hidden if its entry is 128 or more.
 //
-// Schedule: both are those of bin_i a clock before. Cost: a multiplexer of 32 entries, 9 flip-flops, per array.
+// Schedule: a new bin_i may come in every clock. Latency: 1 clock from bin_i to entry_o and hidden_o.
+// Cost: a multiplexer of 32 entries, 9 flip-flops, per array.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

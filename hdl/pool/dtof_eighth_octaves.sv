@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Eight times the logarithm to base 2: lg(x) = 8 e + m for x = 2^e (1 + m / 8 + ...), 0 for x = 0.
+// Eight times the logarithm to base 2: lg(x) = 8 e + m for x = 2^e (1 + m / 8 + ...); lg(0) = 0. Combinational.
 //
-// Equation (docs/reference/poolpointer.md, Significance): Mitchell's approximation with three bits of the mantissa, at most
-// 1.69 below 8 log2(x).
+// Equation (docs/reference/poolpointer.md, Significance): Mitchell's approximation with three bits of the mantissa. The result
+// is at most 1.69 below 8 log2(x).
 //
-// Combinational: x's highest one selects its place and the three bits behind it. Cost: two levels of gates a bit.
+// The highest 1 of x_i selects its own position (e) and the three bits below it (m).
+// Latency: none. Cost: two levels of gates per bit.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -17,7 +18,7 @@ module dtof_eighth_octaves #(
     output logic [LOGARITHM_WIDTH-1:0] logarithm_o
 );
 
-  logic [WIDTH+1:0] padded;  // below the highest bit, which is never behind another one
+  logic [WIDTH+1:0] padded;  // x_i without its highest bit, which is never below another 1, and three zeros
   logic [WIDTH-1:0] highest;
 
   assign padded = {x_i[WIDTH-2:0], 3'b000};

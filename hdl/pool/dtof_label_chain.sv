@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Max-product messages along a chain of pixels, each with a few labels: one engine's arithmetic.
+// Max-product messages along a chain of pixels, each with a few labels: the arithmetic of one engine.
 //
-// Equations (docs/reference/poolpointer.md, Chain): T(k) = evidence(k) - u(k), u >= 0 the message received; message to
-// label l of the next pixel: min(penalty, min over its near k of max T - T(k)). belief(k) = T(k) - u'(k), u' the
-// message from the other side. Near: positions at most REACH apart.
+// Equations (docs/reference/poolpointer.md, Chain): T(k) = evidence(k) - u(k), where u >= 0 is the message to this pixel from the
+// pixel before. Message to label l of the next pixel: min(penalty, min of (max T - T(k)) over all k near l). Labels are near each
+// other if their positions are at most REACH apart. belief(k) = T(k) - u'(k), where u' is the message from the other direction.
 //
-// 1. Two pixels are held, this one and the next. When a step begins, this pixel's T are added up, and the largest is
-//    found in two clocks.
-// 2. The differences to the largest say what each label is behind.
-// 3. The labels of the next pixel pass, one a clock: each gets its message, and in the same clock this pixel's label of
-//    the same number its belief, which is ranked a clock later.
-// 4. The chain advances: the next pixel becomes this one, the one at the port the next.
+// 1. The registers hold two pixels: this pixel and the next pixel. begin_step registers T of this pixel; the largest T follows in
+//    two more clocks.
+// 2. spread registers by how much each label's T is below the largest T, limited to the penalty.
+// 3. pass_label handles one label number per clock: the next pixel's label gets its message, and this pixel's label gets its
+//    belief. One clock later the belief is compared with the best two beliefs so far.
+// 4. advance moves the chain: the next pixel becomes this pixel, and the pixel at the ports becomes the next pixel.
 //
-// Schedule: the table of dtof_pool_sequencer, with this module's POOL_CHAIN_*_CLOCKS (dtof_pkg).
-// Cost: LABELS comparators of positions and of differences.
+// Schedule: the table of dtof_pool_sequencer.
+// Latency (dtof_pkg): POOL_CHAIN_SPREAD_CLOCKS from begin_step to spread, POOL_CHAIN_TARGET_CLOCKS from a label's target to its
+//   pass_label, POOL_CHAIN_BELIEF_CLOCKS from the last pass_label to the best two beliefs.
+// Cost: LABELS comparators of positions and LABELS subtractors of sums.
 
 `include "dtof_macros.svh"
 
@@ -21,31 +23,31 @@
 `default_nettype none
 
 module dtof_label_chain `DTOF_TYPES_OF(dtof_pool_pkg) #(
-    parameter int LABELS = 8,           // of a pixel
+    parameter int LABELS = 8,           // labels of a pixel
     parameter int POSITION_WIDTH = 8,   // bits of a label's position, signed
-    parameter int REACH = 4,            // labels at most so far apart are near
+    parameter int REACH = 4,            // labels whose positions are at most this far apart are near
     parameter int EVIDENCE_WIDTH = 6,   // bits of a label's evidence, signed
     parameter int PENALTY_WIDTH = 5,    // bits of the penalty and of messages, unsigned
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int BELIEF_WIDTH = EVIDENCE_WIDTH + 2
 ) (
     input  logic                             clk_i,
-    input  logic                             active_i,   // in all of the operation; otherwise nothing moves
+    input  logic                             active_i,   // high during the whole operation; while low, registers hold
     input  `DTOF_TYPE(dtof_pool_pkg, chain_command_t) command_i,
-    // the pixel prepared, taken with advance
+    // pixel to prepare, loaded with advance
     input  logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_i,
     input  logic [LABELS*POSITION_WIDTH-1:0] position_i,
     input  logic [        PENALTY_WIDTH-1:0] penalty_i,
-    // messages to this pixel: of the pass in work, complete from the last label on until the next step's first one;
-    // from the other side, taken with advance
+    // messages to this pixel. message_o: from the pass in work, complete from the last label until the first label of the next step.
+    // other_message_i: from the opposite pass, loaded with advance
     output logic [ LABELS*PENALTY_WIDTH-1:0] message_o,
     input  logic [ LABELS*PENALTY_WIDTH-1:0] other_message_i,
-    // the best two beliefs, valid from POOL_CHAIN_BELIEF_CLOCKS after the last label until the next labels pass
+    // best two labels, valid POOL_CHAIN_BELIEF_CLOCKS after the last label, until the next labels pass
     output logic [          LABEL_WIDTH-1:0] best_label_o,
     output logic [          LABEL_WIDTH-1:0] second_label_o,
     output logic [       POSITION_WIDTH-1:0] best_position_o,
     output logic [       POSITION_WIDTH-1:0] second_position_o,
-    output logic [         BELIEF_WIDTH-1:0] margin_o          // unsigned
+    output logic [         BELIEF_WIDTH-1:0] margin_o          // best belief minus second belief, unsigned
 );
 
   localparam logic signed [POSITION_WIDTH:0] FAR = (POSITION_WIDTH + 1)'(REACH);
@@ -67,7 +69,7 @@ module dtof_label_chain `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // T, its largest, and how far each stays behind, the penalty at most.
+  // T, the largest T, and each label's distance below the largest T, limited to the penalty.
 
   logic [LABELS*BELIEF_WIDTH-1:0] sum, sum_q;
   logic [BELIEF_WIDTH-1:0] largest_q;
@@ -87,8 +89,8 @@ module dtof_label_chain `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   endgenerate
 
-  // The largest sum is what is left of the smallest complement; complements of sums with the top bit inverted are
-  // in the opposite order of the signed sums.
+  // The largest T is the complement of the smallest complement. Complementing all bits but the sign bit reverses the order of the
+  // signed sums and makes them unsigned.
   logic [LABELS*BELIEF_WIDTH-1:0] complement;
   logic [BELIEF_WIDTH-1:0] smallest_complement;
 
@@ -135,8 +137,8 @@ module dtof_label_chain `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // The message to one label of the next pixel. Its position is fetched two clocks ahead, and which labels are near
-  // it found one clock ahead.
+  // Message to one label of the next pixel. The label's position is registered two clocks before, and the set of labels near it one
+  // clock before.
 
   logic [LABELS-1:0] near, near_q;
   logic [LABEL_WIDTH-1:0] target;
@@ -183,7 +185,7 @@ module dtof_label_chain `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   assign message_o = message_q;
 
-  // The two best beliefs, the lower label on a tie.
+  // Best two beliefs; on a tie the label with the lower number.
 
   logic signed [BELIEF_WIDTH-1:0] belief_q, best_q, second_q;
   logic [LABEL_WIDTH-1:0] passing_q, label_q, best_label_q, second_label_q;

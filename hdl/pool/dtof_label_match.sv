@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which candidates of a group a timestamp supports. Combinational.
+// poolPointer, track: which candidates of a group a timestamp supports. Combinational.
 //
 // Equation (docs/reference/poolpointer.md, Track): hit[k] = (-WINDOW <= (X >> 9) - cell[k] < WINDOW).
-// Cost: a 7-bit subtractor and a range check a candidate.
+// Latency: none. Cost: a 7-bit subtractor and a range check per candidate.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module dtof_label_match #(
     parameter int LABELS = 5,
-    parameter int WINDOW = 4  // cells to either side of a candidate
+    parameter int WINDOW = 4  // cells on each side of a candidate
 ) (
-    input  logic                                       valid_i,   // there is a timestamp
-    input  logic [        dtof_pkg::POOL_CELL_WIDTH-1:0] cell_i,    // its cell, X >> 9
-    input  logic [LABELS*dtof_pkg::POOL_CELL_WIDTH-1:0] cells_i,   // the candidates'
+    input  logic                                       valid_i,   // the pixel has a timestamp
+    input  logic [        dtof_pkg::POOL_CELL_WIDTH-1:0] cell_i,    // cell of the timestamp, X >> 9
+    input  logic [LABELS*dtof_pkg::POOL_CELL_WIDTH-1:0] cells_i,   // cells of the candidates
     output logic [                           LABELS-1:0] hits_o
 );
 
@@ -21,7 +21,7 @@ module dtof_label_match #(
   localparam int LOW_WIDTH = $clog2(2 * WINDOW);
   localparam int HIGH_WIDTH = CELL_WIDTH + 1 - LOW_WIDTH;
 
-  // From -WINDOW .. WINDOW - 1 to 0 .. 2 WINDOW - 1: one comparison. What only the timestamp decides is shared.
+  // Adding WINDOW moves the range to 0 .. 2 WINDOW - 1, which needs one comparison. All candidates share what depends on cell_i alone.
   logic [CELL_WIDTH:0] top;
   logic [LOW_WIDTH-1:0] top_low;
   logic [HIGH_WIDTH-1:0] top_high, one_less;
@@ -30,7 +30,7 @@ module dtof_label_match #(
   assign top_high = top[CELL_WIDTH:LOW_WIDTH];
   assign one_less = top_high - 1'b1;
 
-  // Under valid_i alone, so that a simulator works on timestamps; the defaults say that nothing is kept.
+  // Inside if (valid_i), so that a simulator evaluates it for timestamps only; the defaults avoid latches.
   integer k;
   logic [CELL_WIDTH-1:0] centre;
   logic [CELL_WIDTH:0] distance;
@@ -46,7 +46,7 @@ module dtof_label_match #(
         centre = cells_i[k*CELL_WIDTH+:CELL_WIDTH];
         distance = top - {1'b0, centre};
         if (2 * WINDOW == 2 ** LOW_WIDTH) begin
-          // The distance has no high bits: those of both are equal, or one apart where the low ones borrow.
+          // Hit if the distance has no high bits: the high parts are equal, or differ by one if the low parts borrow.
           near = ((top_low < LOW_WIDTH'(centre)) ? one_less : top_high) == HIGH_WIDTH'(centre >> LOW_WIDTH);
         end else begin
           near = (distance < (CELL_WIDTH + 1)'(2 * WINDOW));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smallest of NUMBER unsigned values, by a tree of comparators. Combinational.
-// Cost: NUMBER - 1 comparators and multiplexers, log2(NUMBER) deep.
+// Smallest of NUMBER unsigned values, by a tree of comparators. Combinational.
+// Latency: none. Cost: NUMBER - 1 comparators and multiplexers, log2(NUMBER) levels deep.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -13,7 +13,7 @@ module dtof_minimum #(
     output logic [       WIDTH-1:0] smallest_o
 );
 
-  // Node n's children are 2 n + 1 and 2 n + 2; the values are the last NUMBER nodes.
+  // The children of node n are nodes 2 n + 1 and 2 n + 2; the last NUMBER nodes are the values.
   logic [(2*NUMBER-1)*WIDTH-1:0] tree;
   integer n;
 

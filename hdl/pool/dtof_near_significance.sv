@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: the largest significance of a group's candidates within a coarse bin of a position.
+// poolPointer, decide: the largest significance among a group's candidates that are near a position.
 //
-// Equation (docs/reference/poolpointer.md, Confidence): max of Z[k] over the candidates k with |cell[k] - cell| <= 4, 0 without
-// one.
+// Equation (docs/reference/poolpointer.md, Confidence): max of Z[k] over the candidates k with |cell[k] - cell| <= 4; 0 if no
+// candidate is that near.
 //
-// 1. Which candidates are near is registered, and all significances.
-// 2. A level is reached if a near candidate reaches it; the highest one is the result.
+// 1. take_i registers which candidates are near, and all significances.
+// 2. A level is reached if the significance of a near candidate is at least that level; the result is the highest level reached.
 //
-// Schedule: significance_o from a clock after take_i until the next one.
-// Cost: LABELS subtractors and comparisons of 8 bits, LABELS (1 + KEPT_WIDTH) flip-flops.
+// Schedule: significance_o holds until the clock after the next take_i. Latency: 1 clock from take_i.
+// Cost: LABELS subtractors and comparators of 8 bits, LABELS (1 + KEPT_WIDTH) flip-flops.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -22,7 +22,7 @@ module dtof_near_significance #(
     input  logic                         take_i,
     input  logic [LABELS*CELL_WIDTH-1:0] cells_i,
     input  logic [LABELS*KEPT_WIDTH-1:0] significances_i,
-    input  logic [       CELL_WIDTH-1:0] cell_i,          // of the position
+    input  logic [       CELL_WIDTH-1:0] cell_i,          // cell of the position
     output logic [       KEPT_WIDTH-1:0] significance_o
 );
 
@@ -51,7 +51,7 @@ module dtof_near_significance #(
 
   localparam int LEVELS = 1 << KEPT_WIDTH;
   logic [LEVELS*LABELS-1:0] reaches;
-  logic [LEVELS:0] reached;  // by level, from 1 on; none is reached above the highest
+  logic [LEVELS:0] reached;  // [l]: level l is reached; [LEVELS] is always 0
 
   genvar l;
   generate

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: counts the timestamps of an acquisition, handshakes with the TDC stream and schedules the columns'
-// single-port SRAMs, two pixels a word, once per array.
+// poolPointer: sequencer of the stream phases, once per array. It counts the timestamps of an acquisition, handshakes with the TDC
+// stream, and schedules the accesses of the columns' single-port SRAMs, whose words hold two rows (a pair of pixels per column).
 //
-// Acquisitions start on a raster of SLOTS clocks, so that the SRAM accesses of one fall between those of the one
-// before. Where the number of rows is no multiple of four (LINE_HALVES = 2: eight), SLOTS clocks pass for each row that is
-// missing.
+// Acquisitions start on a raster of SLOTS clocks, so that the SRAM accesses at the end of an acquisition and at the start of the
+// next do not collide. If the number of rows is no multiple of four (LINE_HALVES = 2: eight), SLOTS clocks pass without timestamps
+// for each missing row.
 //
-// Schedule (T0: the clock of a pixel's last slot at the port):
-//   prime   before the first acquisition of a phase: group 0's word, if the phase needs groups, and pair 0's are read
-//   second pixel of a pair   T1: read the next pair's group word, where it is another one and the phase needs groups
-//                            T2: read the next pair; the group's word is registered
-//                            T3: the next pair's first pixel is registered
-//                            T4: write the pair; the next is registered
-//   coarse phase, second pixel of a pair, for part k of the two of a group's bins:
-//                            T1 + k: read, T2 + k: registered, T3 + k: counted and written
-//   with LINE_HALVES = 2 second pixel of a second pair, for part k of the four:
-//                            T2 + 2 k: read, T3 + 2 k: registered, T4 + 2 k: counted, T5 + 2 k: counted and written
-// The last one of 2^POOL_SWEEP_WIDTH acquisitions of the coarse phase is a sweep: all parts are read, and nothing counts. In
-// the group's first visit (pair of rows, LINE_HALVES = 2: four rows) the columns look for full bins, in its second one they
-// make room.
-// SRAM commands and loads are given one clock early (_d) for the array to register and spread.
-// Cost: counters and the stage copies of the pixel number, per array.
+// Schedule (T0: the clock in which a pixel's last slot is at the port):
+//   before the first acquisition of track and point (prime):
+//                            read the word of group 0, if the phase needs groups, then the word of pair 0
+//   track and point, second pixel of a pair:
+//                            T1: read the next pair's group word, if its group is another and the phase needs groups
+//                            T2: read the next pair; register the group's word
+//                            T3: register the next pair's first pixel
+//                            T4: write this pair; register the next pair
+//   coarse phase, second pixel of a pair, for part k of the two parts of a group's bins:
+//                            T1 + k: read, T2 + k: register, T3 + k: count and write
+//   coarse phase with LINE_HALVES = 2, second pixel of a second pair, for part k of the four parts:
+//                            T2 + 2 k: read, T3 + 2 k: register, T4 + 2 k: count, T5 + 2 k: count and write
+// Every 2^POOL_SWEEP_WIDTH-th acquisition of the coarse phase is a sweep: all parts are read and no timestamp counts. In the group's
+// first visit (a pair of rows, with LINE_HALVES = 2 four rows) the columns look for full bins, in its second visit they make room.
+// The outputs read, write, address and the loads are given one clock early (_d); the array registers and distributes them.
+// Latency: the stage of an output is in its name (_t0, _t1, _t2). Cost: counters, and copies of the pair's number per stage.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -30,52 +31,52 @@ module dtof_pair_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
     parameter int SLOTS = 2,
     parameter int GROUP_SIZE = 8,
-    parameter int LINE_HALVES = 1,  // halves of a word that eight bins take, 1 or 2
+    parameter int LINE_HALVES = 1,  // halves of a word that eight bins occupy, 1 or 2
     localparam int PART_WIDTH = dtof_pkg::pool_part_width(LINE_HALVES),
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
-    localparam int GROUP_WORDS = (GROUPS + 1) / 2,  // of two groups each
+    localparam int GROUP_WORDS = (GROUPS + 1) / 2,  // each holds two groups
     localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + GROUP_WORDS)
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
-    input  logic                  stream_i,          // a phase is under way
-    input  logic                  coarse_i,          // it is the coarse phase
+    input  logic                  stream_i,          // a stream phase is in progress
+    input  logic                  coarse_i,          // this phase is the coarse phase
     input  logic                  groups_i,          // the phase needs the groups' words; low in the coarse phase
-    input  logic                  more_i,            // another acquisition belongs to it
-    input  logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1_i,  // low bits of the number of the timestamp's at T1
+    input  logic                  more_i,            // the phase has another acquisition to take
+    input  logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1_i,  // low bits of the acquisition's number, of the timestamp at T1
     input  logic                  tdc_valid_i,
     output logic                  tdc_ready_o,
-    output logic                  acq_done_o,        // last timestamp of an acquisition in this clock
-    output logic                  idle_o,            // nothing in the pipeline and nothing to come
+    output logic                  acq_done_o,        // the last timestamp of an acquisition is at the port
+    output logic                  idle_o,            // the pipeline is empty and the phase has no more acquisitions
     output logic                  underrun_o,       // tdc_valid_i is low inside an acquisition
     // to the columns
     output logic                  beat_t1_o,
     output logic                  first_slot_t1_o,
     output logic                  last_slot_t1_o,
     output logic                  odd_t1_o,
-    output logic                  second_row_t0_o,   // the timestamp at the port is of a pair's second pixel
+    output logic                  second_row_t0_o,   // the timestamp at the port belongs to a pair's second pixel
     output logic                  first_row_t2_o,    // coarse: a pair's first pixel is complete
-    output logic                  second_row_t2_o,   // coarse: its second one is
+    output logic                  second_row_t2_o,   // coarse: a pair's second pixel is complete
     output logic [           3:0] acquisition_t2_o,
     // coarse
-    output logic                  keep_first_o,      // four parts, T3 of a first pair: what it has chosen is registered
-    output logic                  keep_last_o,       // four parts, T3 of a second pair: what it has chosen is
-    output logic                  load_o,            // a clock after a part's read
-    output logic [PART_WIDTH-1:0] part_o,            // with load_o
-    output logic                  sweep_o,           // from the first part's load_o to the next one's: a sweep
-    output logic                  make_room_o,       // with sweep_o: the group's second visit; low in the other phases
-    // SRAM, a clock early
+    output logic                  keep_first_o,      // four parts, T3 of a first pair: register the columns' choice
+    output logic                  keep_last_o,       // four parts, T3 of a second pair: register the columns' choice
+    output logic                  load_o,            // one clock after the read of a part
+    output logic [PART_WIDTH-1:0] part_o,            // with load_o: number of the part
+    output logic                  sweep_o,           // this visit is a sweep; changes with load_o of the first part
+    output logic                  make_room_o,       // with sweep_o: this is the group's second visit; low in the other phases
+    // SRAM commands, one clock early
     output logic                  read_d_o,
     output logic                  write_d_o,
     output logic [ADDR_WIDTH-1:0] address_d_o,
     output logic                  word_load_d_o,
     output logic                  group_load_d_o,
-    output logic                  group_upper_d_o    // with group_load_d_o: the group is the word's upper one
+    output logic                  group_upper_d_o    // with group_load_d_o: the group is in the upper half of the word
 );
 
-  localparam int VISIT_PAIRS = LINE_HALVES;  // that count together
-  // With those that are missing. A group has at least two visits.
+  localparam int VISIT_PAIRS = LINE_HALVES;  // pairs of rows that count together
+  // Including missing pairs. A group has at least two visits.
   localparam int PAIRS = 2 * VISIT_PAIRS * ((PIXELS_PER_SRAM + 4 * VISIT_PAIRS - 1) / (4 * VISIT_PAIRS));
   localparam int STEPS = 2 * SLOTS;
   localparam int STEP_WIDTH = $clog2(STEPS);
@@ -84,13 +85,13 @@ module dtof_pair_sequencer #(
   localparam int GROUP_PAIRS = GROUP_SIZE / 2;
   localparam int GROUP_SHIFT = $clog2(GROUP_PAIRS);
   localparam int PARTS = 1 << PART_WIDTH;
-  localparam int PART_CLOCKS = PARTS / 2;  // from a part to the next
+  localparam int PART_CLOCKS = PARTS / 2;  // clocks from one part to the next
   localparam logic [PAIR_WIDTH-1:0] LAST_PAIR = PAIR_WIDTH'(PAIRS - 1);
   localparam logic [STEP_WIDTH-1:0] LAST_STEP = STEP_WIDTH'(STEPS - 1);
   localparam logic [SLOT_WIDTH-1:0] LAST_SLOT = SLOT_WIDTH'(SLOTS - 1);
-  localparam int FIRST_STAGE = (PARTS == 2) ? 0 : 1;    // the read of the first part is given at this T
-  localparam int LAST_STAGE = FIRST_STAGE + 1 + PART_CLOCKS * PARTS;  // the write of the last one
-  // A phase ends when its last count was commanded: a clock after drain_q = 0 stream_i falls.
+  localparam int FIRST_STAGE = (PARTS == 2) ? 0 : 1;    // stage T in which the first part is read
+  localparam int LAST_STAGE = FIRST_STAGE + 1 + PART_CLOCKS * PARTS;  // stage T in which the last part is written
+  // A phase ends after the command of its last count: stream_i falls one clock after drain_q = 0.
   localparam int DRAIN_WIDTH = $clog2(LAST_STAGE);
   localparam logic [DRAIN_WIDTH-1:0] DRAIN_CLOCKS = DRAIN_WIDTH'(LAST_STAGE - 1);
   localparam logic [2:0] PRIMED = 3'd6;
@@ -148,7 +149,7 @@ module dtof_pair_sequencer #(
     end
   end
 
-  // A clock without a valid timestamp inside an acquisition counts as "no detection".
+  // Inside an acquisition, a clock without tdc_valid_i counts as "no detection".
   assign underrun_o = active_q && !missing && !tdc_valid_i;
   `DTOF_ASSERT(a_contiguous_acquisition, !underrun_o,
                "tdc_valid_i fell inside an acquisition")
@@ -182,7 +183,7 @@ module dtof_pair_sequencer #(
 
   assign next_pair_t1 = (pair_t1_q == LAST_PAIR) ? '0 : pair_t1_q + 1'b1;
   assign next_group_t1 = (GROUPS > 1) && ((32'(next_pair_t1) % GROUP_PAIRS) == 0);
-  // The last step of a pixel; a missing pixel has one, too.
+  // Last step of a pixel; missing pixels have steps, too.
   assign last_step_t1 = busy_t1_q && (step_t1_q == STEP_WIDTH'(SLOTS - 1) || step_t1_q == LAST_STEP);
   assign second_row_t1 = coarse_i && last_step_t1 && second_pixel_t1_q;
 
@@ -190,13 +191,13 @@ module dtof_pair_sequencer #(
 
   logic [LAST_STAGE:FIRST_STAGE] fetch_tn;
   logic [LAST_STAGE:FIRST_STAGE+1] fetch_tn_q;
-  logic [(LAST_STAGE+1)*PAIR_WIDTH-1:0] pair_tn;  // of T0 .. LAST_STAGE, T0 lowest
-  logic [(LAST_STAGE-1)*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. LAST_STAGE
+  logic [(LAST_STAGE+1)*PAIR_WIDTH-1:0] pair_tn;  // pair at T0 .. LAST_STAGE, T0 lowest
+  logic [(LAST_STAGE-1)*PAIR_WIDTH-1:0] pair_tn_q;  // pair at T2 .. LAST_STAGE
   logic [PAIR_WIDTH-1:0] pair_t3;
   logic second_visit_t2_q, second_visit_t3_q, second_row_t2_q, second_row_t3_q, second_pair_t2_q, second_pair_t3_q;
   logic [3:0] acquisition_t2_q;
   logic sweep_t1, sweep_t2_q, sweep_then, second_visit_then;
-  logic [PAIR_WIDTH-1:0] pair_then;  // of the clock before the first part's load_o
+  logic [PAIR_WIDTH-1:0] pair_then;  // pair, one clock before load_o of the first part
   logic read_part, load_part, write_part;
   integer n;
 
@@ -281,7 +282,7 @@ module dtof_pair_sequencer #(
 
   assign group_upper_d_o = !prime_word && 1'(32'(next_pair_t1) >> GROUP_SHIFT);
 
-  // The part of a group's bins that is read or written next. None is read while one is written.
+  // Address of the part that is read or written next. A part is never read in the clock in which another is written.
   function automatic logic [ADDR_WIDTH-1:0] word_of(input logic [PAIR_WIDTH-1:0] pair,
                                                            input logic [ADDR_WIDTH-1:0] part);
     word_of = ADDR_WIDTH'((32'(pair) >> GROUP_SHIFT) << GROUP_SHIFT) | part;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The distance from a timestamp to the place where a pixel's word points, as the word's update needs it. Combinational.
+// poolPointer, track and point: distance of a timestamp from the position that a pixel's word stores. Combinational.
 //
-// Equations (docs/reference/poolpointer.md, Track and Point), distances floored to cells of 512 positions, those to a settled
-// pointer (n >= 16, or 12 of 15) to cells of 2^CELL_SHIFT:
-//   track  d = (X - C[leader] - 64 offset) >> 9: the offset goes up for 1 <= d < 8, down for -8 <= d < -1
-//   point  d = (X - leader's position) >> 9 (or CELL_SHIFT): in reach for -8 <= d < 8, a hit for -5 <= d < 5; otherwise the
-//          rival's hit if -RIVAL_REACH <= (X >> 9) - rival < RIVAL_REACH (RIVAL_MOVES = 1) or candidate b is hit (0);
-//          weight W[d] = W[-1 - d] by WEIGHTS, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
-// Cost: a row of carries and an adder of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
+// Equations (docs/reference/poolpointer.md, Track and Point). X is the timestamp's position. Distances are rounded down to cells of 512
+// positions; distances to a settled pointer (n >= 16; with 4 bits of n: n >= 12) are rounded down to cells of 2^CELL_SHIFT positions:
+//   track  d = (X - C[leader] - 64 offset) >> 9. The offset goes up for 1 <= d < 8, down for -8 <= d < -1.
+//   point  d = (X - pointer) >> 9 (settled: >> CELL_SHIFT). In reach for -8 <= d < 8, a hit for -5 <= d < 5. Without a hit the rival
+//          is hit if -RIVAL_REACH <= (X >> 9) - rival < RIVAL_REACH (RIVAL_MOVES = 1), or if its candidate is hit (RIVAL_MOVES = 0).
+//          The weight is W[d] = W[-1 - d] (WEIGHTS). The gear is log2 of the step for n, minus POINTER_SHIFT if n has 4 bits.
+// Latency: none. Cost: a row of carries and an adder of 11 bits for track, an adder of 17 and an adder of 8 bits for point.
 
 `include "dtof_macros.svh"
 
@@ -23,15 +23,15 @@ module dtof_pixel_distance `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int RIVAL_MOVES = 1,
     parameter int CELL_SHIFT = 9,
     parameter int PIXEL_WIDTH = 32,
-    parameter int RIVAL_REACH = 6,                      // cells to either side of the rival
-    parameter logic [23:0] WEIGHTS = 24'o12344431       // of the distances 0 to 7, one octal digit each, 0 lowest
+    parameter int RIVAL_REACH = 6,                      // cells on each side of the rival
+    parameter logic [23:0] WEIGHTS = 24'o12344431       // for distances 0 to 7, one octal digit each, distance 0 lowest
 ) (
-    input  logic                                        valid_i,         // there is a timestamp
+    input  logic                                        valid_i,         // the pixel has a timestamp
     input  logic [                                15:0] position_i,      // X
     input  logic [                     PIXEL_WIDTH-1:0] word_i,
-    input  logic [       dtof_pkg::POOL_CELL_WIDTH-1:0] leader_cell_i,   // of the candidate that the word leans on
+    input  logic [       dtof_pkg::POOL_CELL_WIDTH-1:0] leader_cell_i,   // cell of the candidate that the word refers to as leader
     input  logic [                          LABELS-1:0] hits_i,
-    output `DTOF_TYPE(dtof_pool_pkg, pixel_distance_t)              distance_o       // 0 without a timestamp
+    output `DTOF_TYPE(dtof_pool_pkg, pixel_distance_t)              distance_o       // all 0 without a timestamp
 );
 
   `DTOF_TYPE(dtof_pool_pkg, pixel_distance_t) found;
@@ -43,18 +43,18 @@ module dtof_pixel_distance `DTOF_TYPES_OF(dtof_pool_pkg) #(
   localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
   localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES);
   localparam int DISTANCE_WIDTH = 16 - POINTER_SHIFT + 2;
-  // From the pointer's units to cells: until the pointer has settled, afterwards, and the finer of both.
+  // Shifts from the pointer's unit to cells: before and after the pointer has settled; CELLS_WIDTH fits the finer cells.
   localparam int START_SHIFT = 9 - POINTER_SHIFT;
   localparam int SETTLED_SHIFT = CELL_SHIFT - POINTER_SHIFT;
   localparam int CELLS_WIDTH = DISTANCE_WIDTH - ((CELL_SHIFT < 9) ? SETTLED_SHIFT : START_SHIFT);
   localparam logic [CELLS_WIDTH-1:0] REACH = CELLS_WIDTH'(8);
   localparam logic [ADVANTAGE_WIDTH-1:0] SETTLED_FROM = ADVANTAGE_WIDTH'((ADVANTAGE_WIDTH == 7) ? 16 : 12);
-  localparam logic [2:0] NEAR = 3'd4;  // cells to the leader, 0 the one in which it is
+  localparam logic [2:0] NEAR = 3'd4;  // cells from the pointer, whose own cell is 0
   localparam logic [2:0] RIVAL_NEAR = 3'(RIVAL_REACH - 1);
 
   logic [LABEL_WIDTH-1:0] resting_rival;
   logic [OFFSET_WIDTH-1:0] offset;
-  // In units of 64; the leader's position is within the range, since the offset follows timestamps.
+  // In units of 64. The leader's position is within the range, because the offset follows timestamps.
   logic [10:0] track_position, minus_leader, minus_offset, track_sum, track_carry, track_distance;
   logic [7:0] track_cells, rival_cells;
   logic [POINTER_WIDTH-1:0] pointer;
@@ -66,7 +66,7 @@ module dtof_pixel_distance `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   assign position = {2'b00, position_i[15:POINTER_SHIFT]};
 
-  // Under valid_i alone, so that a simulator works on timestamps; the defaults say that nothing is kept.
+  // Inside if (valid_i), so that a simulator evaluates it for timestamps only; the defaults avoid latches.
   always_comb begin
     found = '0;
     resting_rival = '0;
@@ -97,7 +97,7 @@ module dtof_pixel_distance `DTOF_TYPES_OF(dtof_pool_pkg) #(
     if (valid_i) begin
       // Track: offset.
       offset = OFFSET_WIDTH'(word_i >> (SCORES_WIDTH + LABEL_WIDTH));
-      // Both are taken away in one addition: sums and carries of the three, and 1 for each complement.
+      // One addition subtracts both leader and offset: sums and carries of the three terms, and 1 for each complement.
       track_position = 11'(position_i >> 6);
       minus_leader = ~{1'b0, leader_cell_i, 3'b000};
       minus_offset = ~{{(11 - OFFSET_WIDTH) {1'(offset >> (OFFSET_WIDTH - 1))}}, offset};
@@ -108,7 +108,7 @@ module dtof_pixel_distance `DTOF_TYPES_OF(dtof_pool_pkg) #(
       found.offset_up = (OFFSET_BITS > 0) && (track_cells != 8'd0) && (track_cells < 8'd8);
       found.offset_down = (OFFSET_BITS > 0) && (track_cells >= -8'd8) && (track_cells != -8'd1);
 
-      // Point: leader, in the pointer's units; of a pointer beside a candidate both are taken away in one addition, too.
+      // Point: distance to the leader, in the pointer's unit. For a pointer relative to a candidate, one addition subtracts both.
       pointer = POINTER_WIDTH'(word_i);
       if (RIVAL_MOVES != 0) begin
         distance = position - DISTANCE_WIDTH'(pointer);
@@ -155,7 +155,7 @@ module dtof_pixel_distance `DTOF_TYPES_OF(dtof_pool_pkg) #(
         else found.gear = 4'(9 - POINTER_SHIFT);
       end
 
-      // Point: rival.
+      // Point: distance to the rival.
       rival_cells = 8'(position_i >> 9) - 8'(RIVAL_WIDTH'(word_i >> POINTER_WIDTH));
       rival_below = 1'(rival_cells >> 7);
       rival_away = 3'(rival_cells) ^ {3{rival_below}};

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: finds the candidate depths of a group of pixels in its coarse histogram and its four neighbours'.
+// poolPointer, decode: finds the candidate depths of a group of pixels in the coarse histograms of the group and its four neighbours.
 //
-// Equations (docs/reference/poolpointer.md, Decode): pair sums w = 3 own + those of the groups above, below, left and
-// right, each bin less its template; LABELS times the largest not taken, which no
-// pair with a hidden bin, or up to two beyond, is; its cell from its neighbours' tilt; an eighth of its excess over the least
-// sum is taken from the pairs two away. B from the least of the own histogram's four octets.
+// Equations (docs/reference/poolpointer.md, Decode): a bin's sum is 3 own + above + below + left + right, minus the bin's template
+// entry, at least 0; a pair sum w adds two adjacent bins. LABELS times, the largest pair sum that is not taken becomes a candidate;
+// it takes its own pair and the pairs next to it. Pairs with a hidden bin, and up to two pairs beyond, are taken from the start. The
+// candidate's cell follows from the tilt between the two neighbouring pairs. An eighth of the candidate's excess over the least pair
+// sum is subtracted from the pairs two away. The background B follows from the least of the four octets of the group's own histogram.
 //
-// 1. The bins of five groups, each captured a clock after the one before it, shift out bin by bin; a bin's sum over the
-//    groups is added up on the way. It begins at minus the bin's entry of TEMPLATE, and is 0 if it ends below.
-// 2. Sums of two adjacent bins enter a ring of 32: pair -1 first, which holds nothing and counts as taken.
-// 3. The ring turns once a candidate. While it passes its head, the largest pair that is not taken is kept, with its two
-//    neighbours.
-// 4. In the next turn's first two clocks the candidate's tilt and then its cell are found; during that turn what it
-//    takes away leaves the pairs on their way to the head.
+// 1. The bins of the five groups are captured in five successive clocks and shift out bin by bin. A bin's sum passes five
+//    adders, one per clock, that start with minus the bin's template entry.
+// 2. Sums of two adjacent bins enter a ring of 32 entries. The first entry, pair -1, is empty and counts as taken.
+// 3. The ring turns once per candidate. While the entries pass the head, registers keep the largest pair sum that is not taken, and
+//    the sums of its two neighbours.
+// 4. The first two clocks of the next turn compute the candidate's tilt, then its cell. During that turn the candidate's leak is
+//    subtracted from entries on their way to the head, and its pairs become taken.
+// 5. With SIGNIFICANCE_WIDTH > 0 each candidate's significance follows (dtof_candidate_significance), and tilted_o says whether
+//    the first octet has more than 1.5 times the counts of the least octet plus 16.
+// With PRIOR = 1 a pair sum is larger by 28 if the last frame used its candidate (Prior from the last frame).
 //
-// Schedule: the table of dtof_pool_sequencer, with this module's POOL_DECODER_*_CLOCKS (dtof_pkg).
-// 5. With SIGNIFICANCE_WIDTH each candidate's significance follows (dtof_candidate_significance), and whether the first octet
-//    has more than one and a half times the least one's counts, and 16.
-//
-// With PRIOR a pair sum is larger by 28 where the last frame used a candidate (Prior from the last frame).
+// Schedule: the table of dtof_pool_sequencer. Latency: POOL_DECODER_*_CLOCKS (dtof_pkg).
 // Cost at the defaults: 384 flip-flops of ring, 280 of shift registers, per engine.
 
 `include "dtof_macros.svh"
@@ -29,54 +29,54 @@
 module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int COUNT_WIDTH = 7,    // bits of a coarse bin
     parameter int LABELS = 5,         // candidates of a group
-    parameter int PRIOR = 0,          // 1: candidates begin from those that were used in the last frame
-    parameter int SIGNIFICANCE_WIDTH = 3,  // bits of a candidate's significance, 0: none
+    parameter int PRIOR = 0,          // 1: candidates of the last frame that were used raise their pair sums
+    parameter int SIGNIFICANCE_WIDTH = 3,  // bits of a candidate's significance; 0: no significance
     localparam int SIGNIFICANCES_WIDTH = dtof_pkg::max_of(LABELS * SIGNIFICANCE_WIDTH, 1),
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH,
     localparam int LINE_WIDTH = dtof_pkg::POOL_BINS_PER_LINE * COUNT_WIDTH
 ) (
     input  logic                         clk_i,
-    input  logic                         active_i,     // in all of decode; otherwise nothing moves
+    input  logic                         active_i,     // high during all of decode; while low, registers hold
     input  `DTOF_TYPE(dtof_pool_pkg, pool_decode_command_t) command_i,
-    input  logic [       LINE_WIDTH-1:0] line_i,       // with a capture: an octet of bins, lowest first
+    input  logic [       LINE_WIDTH-1:0] line_i,       // with a capture command: eight bins, lowest first
     // with take_prior: the group's candidates of the last frame, and which of them were used
     input  logic [LABELS*CELL_WIDTH-1:0] last_cells_i,
     input  logic [           LABELS-1:0] last_used_i,
-    // POOL_DECODER_TEMPLATE_CLOCKS after capture_above for bin 0, then bin by bin: what is taken from its sum
+    // subtracted from a bin's sum: for bin 0 POOL_DECODER_TEMPLATE_CLOCKS after capture_above, then bin by bin
     input  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_i,
     input  logic                         hidden_i,     // with template_i: the bin is hidden
-    input  logic                         has_right_i,  // the group has a neighbour to its right
-    input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // of long frames
-    // the newest candidate is the last cell; both valid from candidate until the next one
+    input  logic                         has_right_i,  // a group to the right exists
+    input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // correction for long frames
+    // candidates, the newest in the highest bits; cells_o and background_o are valid from candidate until the next candidate
     output logic [LABELS*CELL_WIDTH-1:0] cells_o,
-    // the newest one is the last; valid POOL_DECODER_SIGNIFICANCE_CLOCKS after candidate, until the next one
+    // the newest in the highest bits; valid POOL_DECODER_SIGNIFICANCE_CLOCKS after candidate, until the next candidate's
     output logic [SIGNIFICANCES_WIDTH-1:0] significances_o,
-    output logic                         tilted_o,     // with background_o: the background falls towards late bins
-    output logic [ BACKGROUND_WIDTH-1:0] background_o  // until the next group's bins are counted
+    output logic                         tilted_o,     // valid with background_o: the background is lower in late bins
+    output logic [ BACKGROUND_WIDTH-1:0] background_o  // valid until the bins of the next group are counted
 );
 
   localparam logic signed [2:0] OWN_WEIGHT = 3'sd3;
   localparam int LEAK_SHIFT = 3;
   localparam int LEAST_TILT = 32;
   localparam int PRIOR_WEIGHT = 28;
-  localparam int BIN_SUM_WIDTH = COUNT_WIDTH + 3;  // 7 bins
-  localparam int SUM_WIDTH = COUNT_WIDTH + 4;      // of a pair
+  localparam int BIN_SUM_WIDTH = COUNT_WIDTH + 3;  // sum of 7 bins
+  localparam int SUM_WIDTH = COUNT_WIDTH + 4;      // pair sum
   localparam int ENTRY_WIDTH = SUM_WIDTH + 1;
   localparam int ENTRIES = dtof_pkg::POOL_COARSE_BINS;
   localparam int OCTET_WIDTH = COUNT_WIDTH + 3;
   localparam int TEMPLATE_SHIFT = dtof_pkg::pool_template_shift(COUNT_WIDTH);
-  localparam int HIDDEN_CLOCKS = 5;  // from a bin's template to its sum
+  localparam int HIDDEN_CLOCKS = 5;  // from a bin's template entry to its sum
   localparam int TAKEN_WIDTH = dtof_pkg::max_of(BIN_SUM_WIDTH, dtof_pkg::POOL_TEMPLATE_WIDTH + TEMPLATE_SHIFT);
-  localparam logic [5:0] NOWHERE = 6'd48;  // not even two away from a pair
+  localparam logic [5:0] NOWHERE = 6'd48;  // a pair number that is more than two away from every pair
 
-  // Bins, one group a clock after the other.
+  // Bins of the five groups, each one clock after the group before.
 
   logic [LINE_WIDTH-1:0] above_q, own_q, below_q, left_q, right_q;
   logic [COUNT_WIDTH-1:0] own_bin;
   logic signed [TAKEN_WIDTH:0] above_sum_q, own_sum_q, below_sum_q, left_sum_q, bin_sum;
   logic [BIN_SUM_WIDTH-1:0] bin_sum_q, last_sum_q;
-  logic [HIDDEN_CLOCKS+2:0] hidden_q;  // the newest lowest
+  logic [HIDDEN_CLOCKS+2:0] hidden_q;  // hidden_i of the last clocks, the newest lowest
   logic pair_hidden;
 
   function automatic logic signed [TAKEN_WIDTH:0] as_sum(input logic [COUNT_WIDTH-1:0] count);
@@ -104,7 +104,7 @@ module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // Background.
+  // Background: five times the least octet of the group's own histogram, >> COUNT_WIDTH.
 
   logic [OCTET_WIDTH-1:0] octet, octet_q, least_octet_q, first_sum_q;
   logic octet_done_q, first_octet_q;
@@ -135,10 +135,10 @@ module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
       && ((OCTET_WIDTH + 3)'({first_sum_q, 1'b0}) > (OCTET_WIDTH + 3)'(least_octet_q) + (OCTET_WIDTH + 3)'({least_octet_q, 1'b0})
           + (OCTET_WIDTH + 3)'(LEAST_TILT));
 
-  // What the last frame adds. A candidate's cell is at most 1 from the middle of its own pair i, 4 (i + 1), and all others
-  // are further than PRIOR_REACH = 2 from it: a used candidate raises its own pair's sum, a clock before that is complete.
+  // Prior. A candidate's cell is at most 1 away from 4 (i + 1), the middle of its own pair i, and more than PRIOR_REACH = 2 away from
+  // the middle of all other pairs. So a used candidate raises the sum of its own pair only, one clock before that sum is complete.
 
-  logic [SUM_WIDTH-1:0] last_sum, raised;  // raised: of the pair at the head
+  logic [SUM_WIDTH-1:0] last_sum, raised;  // raised: part of the head's pair sum that comes from PRIOR
   genvar k;
   generate
     if (PRIOR != 0) begin : g_prior
@@ -176,7 +176,7 @@ module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   endgenerate
 
-  // The least pair sum.
+  // Least pair sum.
 
   logic [SUM_WIDTH-1:0] pair_sum, least_q;
 
@@ -185,14 +185,14 @@ module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
   always_ff @(posedge clk_i) begin
     if (command_i.fill) begin
       if (command_i.pair == 5'd0) begin
-        least_q <= '1;  // more than any sum
+        least_q <= '1;  // more than any pair sum
       end else if (!pair_hidden && pair_sum < least_q) begin
         least_q <= pair_sum;
       end
     end
   end
 
-  // The ring: {taken, sum}. What the last candidate takes away leaves an entry on its way to the head.
+  // Ring of {taken, sum}. The last candidate's leak is subtracted from an entry on its way to the head.
 
   logic [ENTRIES*ENTRY_WIDTH-1:0] ring_q;
   logic [ENTRY_WIDTH-1:0] next_head, entry;
@@ -208,8 +208,8 @@ module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign next = next_head[SUM_WIDTH-1:0];
   assign next_taken = next_head[ENTRY_WIDTH-1];
 
-  // With pair 0 at the head the peak is new: what is registered is still of the one before. What it takes away was
-  // registered a clock after it was found, in time for pair 1, which only an early peak reaches.
+  // With pair 0 at the head the peak is new, and the registers below are still those of the peak before. The new peak's leak is
+  // registered one clock after the peak was found, in time for pair 1, which only a peak in pair 3 changes.
   assign beside = new_peak_q ? !command_i.first_label && (best_pair_q == 5'd1 || best_pair_q == 5'd2) : beside_q;
   assign two_away = new_peak_q ? !command_i.first_label && (best_pair_q == 5'd3) : two_away_q;
   assign leak = new_peak_q ? new_leak_q : leak_q;
@@ -224,19 +224,19 @@ module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
     if (active_i) begin
       ring_q <= {entry, ring_q[ENTRIES*ENTRY_WIDTH-1:2*ENTRY_WIDTH], taken, left_over};
       new_peak_q <= (command_i.pair == 5'd31);
-      if (new_peak_q) begin  // for pair 2
+      if (new_peak_q) begin  // values for pair 2
         beside_q <= !command_i.first_label && (best_pair_q <= 5'd3);
         two_away_q <= !command_i.first_label && (best_pair_q == 5'd4);
       end else begin
         beside_q <= (from_peak == 6'd0) || (from_peak == 6'd1) || (from_peak == 6'd63);
-        // While the ring fills, the peak is still of another group.
+        // While the ring fills, peak_q still belongs to the group before.
         two_away_q <= command_i.search && ((from_peak == 6'd2) || (from_peak == 6'd62));
       end
       new_leak_q <= new_leak;
     end
   end
 
-  // The largest of a turn, the lowest on a tie, with its neighbours.
+  // Largest pair sum of a turn, the lowest pair on a tie, and the sums of its two neighbours.
 
   logic found_q, next_pending_q, better;
   logic [SUM_WIDTH-1:0] best_q, before_q, after_q, last_q;
@@ -256,7 +256,7 @@ module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
           best_pair_q <= command_i.pair;
           best_q <= head;
           before_q <= last_q;
-          after_q <= '0;  // beyond the last pair
+          after_q <= '0;  // stays 0 if the peak is the last pair
         end else if (next_pending_q) begin
           after_q <= head;
         end
@@ -264,7 +264,7 @@ module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // A turn later (pair = 0): what the candidate takes away, and its tilt; then (pair = 1) its cell.
+  // In the next turn: at pair 0 the candidate's leak and tilt, at pair 1 its cell.
 
   logic [SUM_WIDTH-1:0] tilt_q, height, lower_q, excess;
   logic tilted, upwards, upwards_q;
@@ -296,7 +296,7 @@ module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   assign cells_o = cells;
 
-  // How far each candidate stands out. The ring's head is pair i, its place j pair i + j; the last places are those that have
+  // Significance of each candidate. If pair i is at the ring's head, entry j is pair i + j; the highest entries are those that have
   // just passed the head.
 
   generate

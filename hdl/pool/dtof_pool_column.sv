@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: what each column has for itself: its timestamps, and which of them counts. What comes of it for a pixel's word
-// is worked out by dtof_pool_pixel_update, for both columns of a pair one after the other.
+// poolPointer: the part of a column that its pair does not share: the input of timestamps, and which timestamp of a pixel is used.
+// dtof_pool_pixel_update then computes the pixel's next word, for both columns of a pair one after the other. An engine, shared by
+// several columns, does what needs several pixels at once (decode, choose, decide: dtof_pool_engine).
 //
-// Equations: docs/reference/poolpointer.md, Timestamps, Coarse, Track, Point. What needs several pixels at once (decode,
-// choose, decide) is done by an engine that several columns share (dtof_pool_engine).
+// Equations: docs/reference/poolpointer.md, Timestamps, Coarse, Track, Point.
 //
-// The first two timestamps of a pixel's slots count; the preferred one is the first in even acquisitions, the second in
-// odd ones if there is one. T1 and later count from the pixel's last slot:
+// A pixel uses one of the first two timestamps of its slots. The preferred timestamp is the second in odd acquisitions if there are
+// two, otherwise the first. T1 and T2 are clocks after T0, in which the pixel's last slot is at the port:
 //   clock   coarse                          track and point
-//   T1                                      point: which of two are inside; track, and point without RIVAL_MOVES: the
-//                                           candidates that the first one hits
-//   T2      of two pixels one is chosen     which one counts; track: the candidates that the second one hits, or the only
-//                                           one, and which of the two scores
-// Cost at the defaults: see reports/area.md.
+//   T1                                      point: which of the two timestamps are inside; track, and point without RIVAL_MOVES:
+//                                           which candidates the first timestamp hits
+//   T2      one of two pixels is chosen     the timestamp that is used; track: which candidates the second timestamp (or the only
+//                                           one) hits, and which of the two timestamps scores
+// Latency: the stage of an output is in its name. Cost at the defaults: see reports/area.md.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -23,7 +23,7 @@ module dtof_pool_column #(
     parameter int LABELS = 5,
     parameter int RIVAL_MOVES = 1,
     parameter int TIME_GATE = 0,
-    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
+    parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the column; timestamps are delayed as much
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int CELLS_WIDTH = LABELS * CELL_WIDTH,
     localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS)
@@ -32,34 +32,34 @@ module dtof_pool_column #(
     input  logic [          NP-1:0] timestamp_i,
     input  logic [          NP-1:0] gate_begin_i,
     input  logic [          NP-1:0] gate_end_i,
-    input  logic                    point_i,           // the pointer phase
-    input  logic                    leans_i,           // candidates count in this phase
-    // timestamps
-    input  logic                    beat_t1_i,         // a timestamp, or none detected
+    input  logic                    point_i,           // pointer phase
+    input  logic                    leans_i,           // this phase uses candidates
+    // stream of timestamps
+    input  logic                    beat_t1_i,         // the pixel's slot is at T1, with or without a detection
     input  logic                    first_slot_t1_i,
     input  logic                    last_slot_t1_i,
     input  logic                    odd_t1_i,          // odd acquisition
     input  logic                    first_row_t2_i,    // coarse: the pair's first pixel is complete
-    input  logic                    second_row_t2_i,   // coarse: its second one is
-    // the pixel at T2
+    input  logic                    second_row_t2_i,   // coarse: the pair's second pixel is complete
+    // pixel at T1 or T2
     input  logic [ CELLS_WIDTH-1:0] cells_i,           // candidates of the group of the pixel at T1 and T2
-    input  logic [  CELL_WIDTH-1:0] pointer_cell_t1_i, // with compares_t1_o: the pointer's, of the pixel at T1
-    output logic                    compares_t1_o,     // whenever there are two timestamps, of which one may be inside
-    output logic                    detected_t1_o,     // it will have a timestamp at T2
-    output logic                    may_have_t1_o,     // whenever detected_t1_o is high, and in other clocks; early
-    output logic                    detected_t2_o,     // it has a timestamp
-    output logic [          NP-1:0] used_t2_o,         // the one that counts
-    output logic [      LABELS-1:0] hits_t2_o,         // candidates that it hits; none without a timestamp
-    // coarse bin of the timestamp that counts, registered: of the first pixel, then of the two
+    input  logic [  CELL_WIDTH-1:0] pointer_cell_t1_i, // with compares_t1_o: the cell of the pointer of the pixel at T1
+    output logic                    compares_t1_o,     // high when the pixel has two timestamps, so that one may be inside; also in some other clocks
+    output logic                    detected_t1_o,     // the pixel will have a timestamp at T2
+    output logic                    may_have_t1_o,     // early form of detected_t1_o, also high in other clocks
+    output logic                    detected_t2_o,     // the pixel has a timestamp
+    output logic [          NP-1:0] used_t2_o,         // timestamp that the pixel uses
+    output logic [      LABELS-1:0] hits_t2_o,         // candidates that the timestamp hits; 0 without a timestamp
+    // coarse bin of the timestamp used, registered: first of the first pixel, then of the pixel chosen from the two
     output logic                    held_valid_o,
     output logic [COARSE_WIDTH-1:0] held_bin_o,
-    output logic                    upper_t2_o         // coarse: what counts of the two is in the upper half of all bins
+    output logic                    upper_t2_o         // coarse: the bin chosen from the two pixels is in the upper half of all bins
 );
 
   localparam int TRACK_REACH = 4;
   localparam int POINT_REACH = 8;
 
-  // The first two timestamps, complete at T1.
+  // The first two timestamps of a pixel, complete at T1.
 
   logic [NP-1:0] timestamp_t1, first_q, second, second_q;
   logic [CELL_WIDTH-1:0] first_cell;
@@ -104,9 +104,9 @@ module dtof_pool_column #(
     end
   endgenerate
 
-  // Which of them counts, at T2: the preferred one, but in the pointer phase the other one if only that is inside.
+  // Which timestamp the pixel uses, at T2: the preferred one; in the pointer phase the other one if only that one is inside.
 
-  // Whether a timestamp is inside comes late; what is known early decides which of the two terms below may count.
+  // first_inside and second_inside arrive late, so the terms that do not depend on them are computed first.
   logic first_inside, second_inside, odd_q, use_second_q, preferred, only_if_inside, unless_first_inside;
   genvar n;
 
@@ -117,9 +117,9 @@ module dtof_pool_column #(
 
   generate
     if (RIVAL_MOVES != 0) begin : g_near_pointer
-      // Whether a timestamp's cell is POINT_REACH below to POINT_REACH - 1 above the pointer's. The pointer's comes late, out
-      // of the SRAM, so that what only the timestamp decides is ready before it, and low bits are compared in a tree. Of two
-      // timestamps the first one is registered.
+      // Inside: the timestamp's cell is POINT_REACH below to POINT_REACH - 1 above the pointer's cell. The pointer's cell arrives late,
+      // from the SRAM. Therefore all terms that depend on the timestamp alone are ready before, and a tree compares the low bits. The first
+      // of two timestamps is registered.
       logic [2*CELL_WIDTH-1:0] cells;
       logic [1:0] is_inside;
       assign cells = {second[NP-1-:CELL_WIDTH], first_q[NP-1-:CELL_WIDTH]};
@@ -137,7 +137,7 @@ module dtof_pool_column #(
         assign not_below = pointer_cell_t1_i[3:0] | ~top[3:0];
         assign is_above = above[3] || (not_below[3] && above[2])
             || (not_below[3] && not_below[2] && (above[1] || (not_below[1] && above[0])));
-        // The high part is the timestamp's, or one less: which of them, its lowest bit says. It fits whether the low part is above.
+        // The pointer's high part must be `same` or `one_less`; the lowest bit tells which. is_above tells which one is inside.
         assign is_inside[n] = (same == pointer_high || one_less == pointer_high) && ((same[0] ^ pointer_high[0]) == is_above);
       end
     end else begin : g_near_candidates
@@ -148,19 +148,19 @@ module dtof_pool_column #(
     end
   endgenerate
 
-  // From the column's registers alone, so that the pointer's cell is early; the signal is high in other clocks, too.
+  // From the column's registers only, so that the pointer's cell comes early; also high in some other clocks.
   assign compares_t1_o = (RIVAL_MOVES != 0) && ((has_first_q && detected_t1) || (SLOTS > 2 && has_second_q));
   assign used_t2_o = use_second_q ? second_q : first_q;
 
   always_ff @(posedge clk_i) begin
     odd_q <= odd_t1_i;
-    // In the other phases the preferred one counts.
+    // Outside the pointer phase the preferred timestamp is used.
     use_second_q <= preferred || (second_inside ? (only_if_inside && !first_inside) || unless_first_inside
                                   : unless_first_inside && !first_inside);
   end
 
-  // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one
-  // has no timestamp.
+  // Coarse: from two pixels one is chosen: the first in even acquisitions, the second in odd acquisitions, or the other pixel if
+  // this pixel has no timestamp.
 
   logic held_valid_q, second_row_counts;
   logic [COARSE_WIDTH-1:0] held_bin_q, bin;
@@ -170,7 +170,7 @@ module dtof_pool_column #(
   assign detected_t2_o = has_first_q;
   assign bin = used_t2_o[NP-1-:COARSE_WIDTH];
 
-  // The second pixel replaces the first where that has no timestamp, or in its turn.
+  // The second pixel replaces the first if the first has no timestamp, or in odd acquisitions.
   assign second_row_counts = has_first_q && (odd_q || !held_valid_q);
   assign upper_t2_o = second_row_counts ? bin[COARSE_WIDTH-1] : (held_valid_q && held_bin_q[COARSE_WIDTH-1]);
 
@@ -184,8 +184,8 @@ module dtof_pool_column #(
   assign held_valid_o = held_valid_q;
   assign held_bin_o = held_bin_q;
 
-  // Track: the candidates that the timestamps hit, the first one's at T1, at T2 those of the second one or of the only
-  // one. They score as the pointer phase chooses; the leader's offset follows the preferred timestamp.
+  // Track: candidates that the timestamps hit: of the first timestamp at T1, of the second (or only) timestamp at T2. The score uses
+  // the other timestamp if only that one hits; the leader's offset follows the preferred timestamp.
 
   logic [LABELS-1:0] first_hits_q;
   logic [CELL_WIDTH-1:0] matched_q;
@@ -206,7 +206,7 @@ module dtof_pool_column #(
   assign hits_t2_o = (has_second_q && !hits_of_second) ? first_hits_q : hits;
 
   always_ff @(posedge clk_i) begin
-    // Nothing behind the register moves in a phase without candidates, or without a timestamp.
+    // Holds in phases without candidates and without a timestamp, so that the logic behind it does not switch.
     if (leans_i && (valid_t1 || (SLOTS > 2 && last_slot_t1_i && has_second))) begin
       matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first_cell;
     end

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: a result's confidence, how much speaks for a target, in eighths of a standard deviation.
+// poolPointer, decide: confidence of a result, in eighths of a standard deviation.
 //
-// Equation (docs/reference/poolpointer.md, Confidence): the weight of the winner's significance, but at most four times the
-// pixel's own margin; and what the margins of the pixel and of its near neighbours above, below and to the left have
-// together above those of a sky with that background, divided by the sky's spread. A tilted background has no second part.
+// Equation (docs/reference/poolpointer.md, Confidence): the sum of two parts. The first part is the weight of the winner's
+// significance, at most four times the pixel's own margin. The second part takes the sum of the margins of the pixel and of its near
+// neighbours above, below and to the left, subtracts the mean of such a sum in a sky with this background, and divides by a quarter of the
+// sky's spread. If the background is tilted, the second part is 0.
 //
-// 1. Rows of a column enter with their positions (dtof_smoothing): the row in the middle is the one whose result leaves.
-// 2. A clock after the distances were taken the near margins are added; the sky's mean is taken away.
-// 3. In the clock after that the confidence is there, until the next row enters.
+// 1. take_position_i shifts the rows of a column, with dtof_smoothing: the result is that of the row in the middle.
+// 2. The clock after take_distances_i adds the near margins and subtracts the sky's mean.
+// 3. The next clock has the confidence.
 //
-// Schedule: that of dtof_smoothing. near_i a clock after take_distances_i; confidence_o two clocks after it.
+// Schedule: that of dtof_smoothing; near_i is valid one clock after take_distances_i. Latency: confidence_o is valid two clocks after
+// take_distances_i, until the next row enters.
 // Cost: five margins, six adders, about 80 flip-flops, per engine.
 
 // verilator lint_off TIMESCALEMOD
@@ -22,14 +24,14 @@ module dtof_pool_confidence #(
 ) (
     input  logic                        clk_i,
     input  logic                        take_position_i,
-    // of the row that enters below
+    // row that enters below
     input  logic [CONFIDENCE_WIDTH-1:0] margin_i,
-    input  logic [CONFIDENCE_WIDTH-1:0] left_margin_i,    // of the column to the left
+    input  logic [CONFIDENCE_WIDTH-1:0] left_margin_i,    // margin in the column to the left
     input  logic [      KEPT_WIDTH-1:0] significance_i,
     input  logic                        tilted_i,
-    input  logic [       SKY_WIDTH-1:0] sky_i,            // its group's background / 4
+    input  logic [       SKY_WIDTH-1:0] sky_i,            // background of its group, / 4
     input  logic                        take_distances_i,
-    input  logic [                 2:0] near_i,           // {left, below, above}
+    input  logic [                 2:0] near_i,           // {left, below, above}: this neighbour's margin counts
     output logic [CONFIDENCE_WIDTH-1:0] confidence_o
 );
 
@@ -52,12 +54,12 @@ module dtof_pool_confidence #(
     end
   end
 
-  // The sky: its mean, and the two powers of two that a margin above counts with.
+  // Sky: the mean of the margins, and the two shifts that divide the excess.
 
   logic [7:0] mean;
   logic [POOLED_WIDTH-1:0] pooled, excess_q, first_part, second_part;
 
-  // Tables are expressions, for Yosys makes a memory of a case with constants.
+  // Tables are expressions, because Yosys makes a memory of a case with constants.
   assign mean = (sky_q == 4'd0) ? 8'd18 : (sky_q == 4'd1) ? 8'd10 : (sky_q == 4'd2) ? 8'd14 : (sky_q == 4'd3) ? 8'd22
       : (sky_q == 4'd4) ? 8'd36 : (sky_q == 4'd5) ? 8'd64 : (sky_q == 4'd6) ? 8'd128 : (sky_q == 4'd7) ? 8'd200 : 8'd255;
 
@@ -73,7 +75,7 @@ module dtof_pool_confidence #(
     endcase
   end
 
-  // The significance's weight, limited by the pixel's own margin.
+  // Weight of the significance, limited by the pixel's own margin.
 
   logic [WEIGHT_WIDTH-1:0] weight, weight_q;
 

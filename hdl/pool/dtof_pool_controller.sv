@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: the state machine of a frame and its acquisition counter, once per array.
+// poolPointer: state machine of a frame and counter of acquisitions, once per array.
 //
 // IDLE -> RESET -> COARSE -> DECODE -> RESET -> TRACK -> CHOOSE -> POINT -> DECIDE -> IDLE
-//   RESET clears the pixels' words, one address a clock. COARSE, TRACK and POINT take timestamps. DECODE, CHOOSE and
-//   DECIDE are the engines' work; DECIDE also sends the results.
-// A phase takes acquisitions until its end of the schedule: coarse_end_i, track_end_i, acq_num_i, all sampled
-// with start_i in IDLE; start_i while busy does nothing. done_o is high for the frame's last clock.
+//   RESET clears the pixels' words, one address per clock. COARSE, TRACK and POINT take timestamps. In DECODE, CHOOSE and DECIDE
+//   the engines work; in DECIDE they also send the results.
+// A stream phase takes acquisitions up to its end in the schedule (docs/reference/poolpointer.md, Parameters): coarse_end_i, track_end_i,
+// acq_num_i. All three are sampled with start_i in IDLE; start_i while busy is ignored. done_o is high in the frame's last clock.
+// Latency: busy_o rises one clock after start_i, RESET begins two clocks after start_i, its first address one clock later.
 // Cost: an acquisition counter, three registers of ACQ_WIDTH bits, two comparators, per array.
 `include "dtof_macros.svh"
 
@@ -19,21 +20,21 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
-    input  logic                  start_i,       // ignored while busy_o, also in the clock of done_o
+    input  logic                  start_i,       // ignored while busy_o is high, also in the clock of done_o
     input  logic [ ACQ_WIDTH-1:0] acq_num_i,
     input  logic [ ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [ ACQ_WIDTH-1:0] track_end_i,
     output logic                  busy_o,
     output logic                  done_o,
     output logic [           2:0] state_o,
-    output logic                  illegal_schedule_o,  // of the frame that has begun; one clock
-    output logic [ ACQ_WIDTH-1:0] acq_num_o,     // acquisitions of the frame that has begun
+    output logic                  illegal_schedule_o,  // of the frame that has just begun; one clock
+    output logic [ ACQ_WIDTH-1:0] acq_num_o,     // number of acquisitions of the frame
     // dtof_pair_sequencer
     output logic                  stream_o,
     output logic                  coarse_o,
     output logic                  point_o,
     output logic                  more_o,
-    output logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1_o,  // low bits of the acquisition's number, of T1
+    output logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1_o,  // low bits of the acquisition's number, of the timestamp at T1
     input  logic                  acq_done_i,
     input  logic                  stream_idle_i,
     // clear
@@ -100,7 +101,7 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
     endcase
   end
 
-  // End of the current phase. Between two phases: end of the next one, so that the comparison does not depend on the change of state.
+  // End of the current phase; between two phases the end of the next, so that the comparison does not depend on the change of state.
   always_comb begin
     phase_end = coarse_end_q;
     if (state_q == dtof_pool_pkg::POOL_STATE_CHOOSE || state_q == dtof_pool_pkg::POOL_STATE_POINT) begin
@@ -110,8 +111,8 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // The acquisition's end comes straight from the port: what follows it is compared ahead, and the number moves a clock
-  // later. The next end is at least two pixels of two slots away.
+  // acq_done_i comes straight from the port. Therefore the comparison for the next acquisition is done ahead, and the number itself changes
+  // one clock later. The next acq_done_i is at least two pixels of two slots later.
   assign acquisition_then = acquisition_q + 1'b1;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -135,7 +136,7 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end else begin
       state_q <= state_d;
       entered_q <= (state_d != state_q);
-      // Registered beside the state: whether a timestamp is taken depends on them.
+      // Registered copies of the state, because tdc_ready_o depends on them.
       stream_q <= (state_d == dtof_pool_pkg::POOL_STATE_COARSE) || (state_d == dtof_pool_pkg::POOL_STATE_TRACK)
           || (state_d == dtof_pool_pkg::POOL_STATE_POINT);
       coarse_q <= (state_d == dtof_pool_pkg::POOL_STATE_COARSE);
@@ -176,7 +177,7 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign point_o = point_q;
   assign more_o = more_q;
   assign acquisition_t1_o = dtof_pkg::POOL_SWEEP_WIDTH'(acquisition_q);
-  // A clock later than the state, for an engine's word is 0 by then.
+  // One clock after the state, because only then all engines' words are 0.
   assign clear_o = (state_q == dtof_pool_pkg::POOL_STATE_RESET) && !entered_q;
   assign clear_address_o = address_q;
   assign decode_o = entered_q && (state_q == dtof_pool_pkg::POOL_STATE_DECODE);

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: what needs several pixels at once, shared by ENGINE_COLUMNS columns.
+// poolPointer: does what needs several pixels at once, for ENGINE_COLUMNS columns one after the other.
 //
-// Decode makes the groups' words of the coarse histograms, choose the first pointer words of the track words, decide the
-// results of the pointer words (docs/reference/poolpointer.md). The scratch memory has a word for each row: the messages
-// of a chain's first pass, and the column to the left's best label: in choose its cell and offset, in decide its position.
+// Operations (docs/reference/poolpointer.md, Decode, Choose, Decide): decode makes the groups' words from the coarse histograms; choose
+// makes the first pointer words from the track words; decide makes the results from the pointer words. The scratch memory has a word for
+// each row: the messages of a chain's first pass, and the best label of the column to the left (choose: its cell and offset; decide:
+// its position).
 //
-// 1. The line is what a pair of columns has read. Decode hands it to the candidate decoder, whose group word
-//    is written back.
-// 2. Choose and decide take from it first a pixel's word and then its group's: the pixel is prepared. In choose what the
-//    columns beside say becomes part of its evidence before the chain takes it.
-// 3. The chain of the operation in work steps on, and its messages of the first pass wait in the scratch memory.
-// 4. Of the best two labels choose makes the pixel's first pointer word, and two of these a word to write. Where pointers
-//    start (but for those beside a resting rival's candidate) and decide's winners pass the smoothing of a column's positions;
-//    decide's result leaves.
-// 5. With PRIOR choose also collects which candidates of a group are used, for the next frame's decode.
+// 1. The line carries the word that a pair of columns has read. Decode passes it to the candidate decoder; the pair then writes
+//    the decoder's group word.
+// 2. Choose and decide take a pixel's word from the line and, one clock later, its group's word: the pixel is prepared. In choose
+//    dtof_beside_evidence adds the evidence of the neighbouring columns before the pixel enters the chain.
+// 3. The operation's chain (dtof_label_chain) handles one pixel per step. Messages of the first pass are kept in the scratch memory.
+// 4. From the best two labels choose makes the pixel's first pointer word; two such words are written together. dtof_smoothing moves the
+//    starts of the pointers (with RIVAL_MOVES = 0: not) and decide's winners, and makes decide's result.
+// 5. With PRIOR = 1 choose also collects which candidates of a group are used, for decode of the next frame.
 //
-// An engine has no counters of rows, columns or clocks: in each clock it does what the command says, and nothing else.
+// An engine has no counters of rows, columns or clocks: in each clock it executes the command, and nothing else.
 //
-// Schedule: the table of dtof_pool_sequencer, with this module's POOL_ENGINE_*_CLOCKS and POOL_ENGINE_*_CLOCKS (dtof_pkg).
-// Cost: dtof_pool_candidate_decoder, dtof_beside_evidence, two label_chains, a single-port SRAM of a word per row, per engine.
+// Schedule: the table of dtof_pool_sequencer. Latency: POOL_ENGINE_*_CLOCKS (dtof_pkg).
+// Cost: dtof_pool_candidate_decoder, dtof_beside_evidence, two dtof_label_chain, a single-port SRAM with a word per row, per engine.
 
 `include "dtof_macros.svh"
 
@@ -53,26 +53,26 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
-    // side band of the SRAM macros, which the technology folder gives a meaning
+    // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     input  logic                    smooth_i,       // S1 is on
-    input  logic                    has_right_i,    // in choose: the column in work has one to its right; in decode: the pair
-    input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // of long frames
-    input  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_i,  // these two in decode: of the bin whose sum begins
+    input  logic                    has_right_i,    // choose: a column to the right exists; decode: a pair to the right exists
+    input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // correction for long frames
+    input  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_i,  // decode: entry of TEMPLATE for the bin whose sum begins; hidden_i: that bin is hidden
     input  logic                    hidden_i,
     input  `DTOF_TYPE(dtof_pool_pkg, pool_engine_command_t) command_i,
-    input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS + POOL_LINE_CLOCKS after its read
-    output logic [  HALF_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
-    input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // of write_scratch and read_scratch
-    // {code, fraction, confidence}, with SECOND_TARGET = 1 {second code, second fraction, code, ...}; held from one take_result
-    // to the next
+    input  logic [  LINE_WIDTH-1:0] line_i,         // the word that was read, POOL_PAIR_READ_CLOCKS + POOL_LINE_CLOCKS after its read
+    output logic [  HALF_WIDTH-1:0] word_o,         // the word to write: a group's word, or two first pointer words
+    input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // row of write_scratch and read_scratch
+    // {code, fraction, confidence}, with SECOND_TARGET = 1 {second code, second fraction, code, ...}; holds from one take_result to the
+    // next
     output logic [RESULT_WIDTH-1:0] result_o
 );
 
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH;
-  localparam int KEPT_WIDTH = dtof_pkg::pool_background_width(LABELS, PIXEL_WIDTH);  // of it in a group's word
+  localparam int KEPT_WIDTH = dtof_pkg::pool_background_width(LABELS, PIXEL_WIDTH);  // highest bits of B that a group's word stores
   localparam int SCORES_WIDTH = LABELS * SCORE_BITS;
   localparam int LEAD_WIDTH = LABEL_WIDTH + OFFSET_BITS;  // {offset, leader}
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
@@ -88,8 +88,8 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   localparam int POSITION_WIDTH = 17;
   localparam int CHOOSE_MESSAGE_WIDTH = LABELS * CHOOSE_PENALTY_WIDTH;
   localparam int DECIDE_MESSAGE_WIDTH = 2 * DECIDE_PENALTY_WIDTH;
-  localparam int LEFT_WIDTH = CELL_WIDTH + OFFSET_BITS;  // of a column's best label in choose
-  // In decide: {margin, position} of the winner; the margin with significances alone.
+  localparam int LEFT_WIDTH = CELL_WIDTH + OFFSET_BITS;  // choose: cell and offset of a column's best label
+  // Decide: {margin, position} of the winner; without significances the position alone.
   localparam int WINNER_WIDTH = 16 + ((SIGNIFICANCE_WIDTH != 0) ? CONFIDENCE_WIDTH : 0);
   localparam int EVIDENCE_FIRST = GROUP_WIDTH + ((PRIOR != 0) ? LABELS : 0);  // {significances, tilted} in a group's word
   localparam int SCRATCH_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH + LEFT_WIDTH, DECIDE_MESSAGE_WIDTH + WINNER_WIDTH);
@@ -97,7 +97,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   `DTOF_TYPE(dtof_pool_pkg, beside_command_t) beside;
   assign beside = command_i.beside;
 
-  // Where nothing is asked for, nothing moves. The word goes back to 0 behind an operation's last clock.
+  // Outside an operation registers hold. word_o becomes 0 in the clock after an operation.
 
   logic active, was_active_q;
   logic [LINE_WIDTH-1:0] line_q;
@@ -133,7 +133,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic [dtof_pkg::max_of(LABELS * SIGNIFICANCE_WIDTH, 1)-1:0] new_significances;
   logic new_tilted;
 
-  logic [LABELS-1:0] last_used;  // candidates of the group whose word is at line_i
+  logic [LABELS-1:0] last_used;  // used candidates of the group whose word is at line_i
   generate
     if (PRIOR != 0) begin : g_last_used
       assign last_used = line_i[GROUP_WIDTH+:LABELS];
@@ -164,7 +164,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .background_o(new_background)
   );
 
-  // A pixel is prepared: its word was captured, its group's is on the line. It passes on with each step of the chain.
+  // Preparation of a pixel: its word was captured, its group's word is on the line. Each step of the chain moves the pixel on.
 
   logic advance;
   logic [PIXEL_WIDTH-1:0] line_pixel, captured_q, prepared_q;
@@ -177,7 +177,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic [CELL_WIDTH-1:0] left_cell;
 
   assign advance = command_i.choose.advance || command_i.decide.advance;
-  // In place of the low bits that are not kept stands the middle of what they can be.
+  // The low bits that the group's word does not store are replaced by the middle of their range.
   assign line_background = (BACKGROUND_WIDTH'(line_q[LABELS*CELL_WIDTH+:KEPT_WIDTH]) << (BACKGROUND_WIDTH - KEPT_WIDTH))
       | BACKGROUND_WIDTH'((1 << (BACKGROUND_WIDTH - KEPT_WIDTH)) >> 1);
   assign line_pixel = command_i.odd_pixel ? line_q[PIXEL_WIDTH+:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
@@ -220,7 +220,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .background_o  (background)
   );
 
-  // Chains and their scratch memory: {messages, best label to the left}, which is the column's own when its second pass is over.
+  // Chains, and their scratch memory: {messages, best label of the left column}. The second pass writes the column's own best label.
 
   logic [LABELS*CELL_POSITION_WIDTH-1:0] choose_position;
   logic [BACKGROUND_WIDTH+2:0] five_backgrounds;
@@ -232,7 +232,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic [CELL_POSITION_WIDTH-1:0] best_cell, second_cell;
   logic [CHOOSE_EVIDENCE_WIDTH+1:0] choose_margin;
   logic [LEFT_WIDTH-1:0] best_lead;
-  logic [POSITION_WIDTH-1:0] position;  // decide's winner
+  logic [POSITION_WIDTH-1:0] position;  // winner of decide
   logic [WINNER_WIDTH-1:0] winner;
   logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
 
@@ -303,7 +303,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       assign leader_position = POSITION_WIDTH'(prepared_q[POINTER_WIDTH-1:0]) << POINTER_SHIFT;
       assign rival_position = POSITION_WIDTH'({prepared_q[POINTER_WIDTH+:RIVAL_WIDTH], 9'h100});
     end else begin : g_relative
-      // Both are candidates of the group, whose word is on the line while the pixel is prepared.
+      // Leader and rival are candidates of the group, whose word is on the line while the pixel is prepared.
       logic [LABEL_WIDTH-1:0] leader_label, rival_label;
       logic [CELL_WIDTH-1:0] leader_cell_q, rival_cell_q;
       logic signed [17:0] moved;
@@ -318,7 +318,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       assign moved = $signed({2'b00, leader_cell_q, 9'd0})
           + $signed({{(18 - POINTER_WIDTH - POINTER_SHIFT) {prepared_q[POINTER_WIDTH-1]}}, prepared_q[POINTER_WIDTH-1:0],
                      {POINTER_SHIFT{1'b0}}});
-      // Beyond the range a pointer stands for its end.
+      // A position beyond the range becomes the end of the range.
       assign leader_position = moved[17] ? '0 : moved[16] ? POSITION_WIDTH'(17'h0ffff) : POSITION_WIDTH'(moved[15:0]);
       assign rival_position = POSITION_WIDTH'({rival_cell_q, 9'd0});
     end
@@ -346,7 +346,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .margin_o         (decide_margin)
   );
 
-  // Choose: the first pointer word. The leader's offset has come along with its pixel.
+  // Choose: first pointer word. The leader's offset has moved through the steps with its pixel.
 
   logic [15:0] best_start, second_start, left_lead, left_start, start;
   logic [CONFIDENCE_WIDTH-1:0] start_margin;
@@ -380,7 +380,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       : ADVANTAGE_WIDTH'(choose_margin);
   generate
     if (RIVAL_MOVES != 0) begin : g_absolute_word
-      // The rival waits until the leader's pointer has moved towards those of the pixels around.
+      // The rival is delayed until the leader's start has been moved closer to its neighbours' starts.
       logic [RIVAL_WIDTH-1:0] rival_q, next_rival_q;
       always_ff @(posedge clk_i) begin
         if (command_i.choosing && command_i.take_position) begin
@@ -402,8 +402,8 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // Candidates of a group that some pixel takes: those that the column to the left in the pair has used, and its own. The
-  // pixel of the next group comes before they are written.
+  // Candidates of a group that some pixel uses: those that the pair's left column has used, and those of this column. The next group's
+  // first pixel arrives before they are written, so so_far_q begins anew while used_q still holds the group before.
 
   logic [HALF_WIDTH-1:0] done_word;
 
@@ -429,7 +429,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   endgenerate
 
-  logic [HALF_WIDTH-1:0] new_evidence;  // of a group's candidates
+  logic [HALF_WIDTH-1:0] new_evidence;  // significances and tilted flag of the group's candidates
   generate
     if (SIGNIFICANCE_WIDTH != 0) begin : g_new_evidence
       assign new_evidence = HALF_WIDTH'({new_significances, new_tilted}) << EVIDENCE_FIRST;
@@ -440,8 +440,8 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   endgenerate
 
-  // Registered here, for the way to the pairs is long. A pair takes it a clock before it writes it, and it is 0 while words are
-  // cleared.
+  // Registered here because the wires to the pairs are long. A pair registers the word one clock before it writes it. The word is 0
+  // while the SRAMs are cleared.
   always_ff @(posedge clk_i) begin
     if (active || was_active_q) begin
       word_o <= ((HALF_WIDTH'({new_background[BACKGROUND_WIDTH-1-:KEPT_WIDTH], new_cells}) | new_evidence)
@@ -450,7 +450,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // Both: positions move closer together. Decide: the result.
+  // Choose and decide: positions move closer together. Decide: result.
 
   logic [2:0] near;
   logic [CONFIDENCE_WIDTH-1:0] confidence;
@@ -484,14 +484,14 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .result_o        (result_o)
   );
 
-  // Decide: the confidence. What the groups of both labels say comes along with the pixel, as its group's background does.
+  // Decide: confidence. The significances near both labels and the group's background move through the steps with the pixel.
 
   generate
     if (SIGNIFICANCE_WIDTH != 0) begin : g_confidence
-      logic next_pixel;  // Icarus Verilog 12 gives a port in a generate block the whole command
+      logic next_pixel;  // a signal, because Icarus Verilog 12 connects the whole command to a port in a generate block
       assign next_pixel = command_i.decide.advance;
       localparam int SKY_WIDTH = dtof_pkg::POOL_SKY_WIDTH;
-      localparam int FACTS_WIDTH = 2 * SIGNIFICANCE_WIDTH + 1 + SKY_WIDTH;  // {of the rival, of the leader, tilted, sky}
+      localparam int FACTS_WIDTH = 2 * SIGNIFICANCE_WIDTH + 1 + SKY_WIDTH;  // {significance of the rival, of the leader, tilted, sky}
       logic [SIGNIFICANCE_WIDTH-1:0] leader_significance, rival_significance;
       logic [SKY_WIDTH:0] prepared_sky_q;  // {tilted, sky}
       logic [FACTS_WIDTH-1:0] next_facts_q, facts_q, last_facts_q;

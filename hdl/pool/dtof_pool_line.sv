@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: brings the word that an engine reads from its pairs of columns to the engine.
+// poolPointer: carries the word that an engine reads from a pair of columns to the engine.
 //
-// At most one pair of an engine drives a word, all others give 0, so that an OR combines the words. Up to
-// dtof_pkg::POOL_LINE_PAIRS neighbouring pairs are a segment: their OR runs from pair to pair (dtof_pool_pair) and ends in a register
-// of this module. The OR of these registers is the line. So no path has more pairs than a segment, however many columns an
+// At most one pair of an engine drives a word and all others drive 0, so an OR combines the words. Up to
+// dtof_pkg::POOL_LINE_PAIRS neighbouring pairs form a segment: their OR runs from pair to pair (dtof_pool_pair) and ends in a register
+// of this module. The OR of these registers is the line. So the longest path has the length of a segment, however many columns an
 // engine has, and every pair's word takes the same time.
 // Latency: POOL_LINE_CLOCKS from words_i to line_o.
-// Cost: WIDTH flip-flops a segment.
+// Cost: WIDTH flip-flops per segment.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -16,7 +16,7 @@ module dtof_pool_line #(
     parameter int WIDTH = 58
 ) (
     input  logic                      clk_i,
-    input  logic [SEGMENTS*WIDTH-1:0] words_i,  // of each segment
+    input  logic [SEGMENTS*WIDTH-1:0] words_i,  // one word per segment
     output logic [         WIDTH-1:0] line_o
 );
 

@@ -33,16 +33,16 @@
 //                        selected half (replace_i)
 //
 // Write data come from the word register, except a row's last pixel and the counts of the last rows, which bypass the register.
-// What comes into a bit from elsewhere than the SRAM (counts, a pixel, the engine's word) comes at different times, and is 0
-// at all others, so that an OR will do.
-// Cost at the defaults: see reports/area.md.
+// A bit of the word register takes the SRAM's bit or one of three other values: a count, a pixel's next word, the engine's word. These
+// three come in different clocks and are 0 in all others, so an OR combines them.
+// Latency: POOL_PAIR_READ_CLOCKS from read_i to word_o, and to the write of an engine's word. Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module dtof_pool_pair #(
-    parameter int COLUMNS = 2,  // 1 for the last one of an odd number
+    parameter int COLUMNS = 2,  // 1 for the last pair of an odd number of columns
     parameter int NP = 10,
     parameter int SLOTS = 2,
     parameter int COUNT_WIDTH = 7,
@@ -55,7 +55,7 @@ module dtof_pool_pair #(
     parameter int CELL_SHIFT = 9,
     parameter int TIME_GATE = 0,
     parameter int PRIOR = 0,
-    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
+    parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the pair; timestamps are delayed as much
     localparam int HALF_WIDTH = dtof_pkg::pool_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                            POINTER_SHIFT, RIVAL_MOVES),
     localparam int LINE_HALVES = dtof_pkg::pool_line_halves(HALF_WIDTH, COUNT_WIDTH),
@@ -67,7 +67,7 @@ module dtof_pool_pair #(
     input  logic [COLUMNS*NP-1:0] timestamp_i,
     input  logic [        NP-1:0] gate_begin_i,     // time gate, the same for a whole frame
     input  logic [        NP-1:0] gate_end_i,
-    // phase, common to all pairs
+    // phase, the same for all pairs
     input  logic                  coarse_i,
     input  logic                  point_i,
     // timestamps
@@ -75,43 +75,43 @@ module dtof_pool_pair #(
     input  logic                  first_slot_t1_i,
     input  logic                  last_slot_t1_i,
     input  logic                  odd_t1_i,
-    input  logic                  second_row_t0_i,   // it is a word's second row; registered here
+    input  logic                  second_row_t0_i,   // the row is a word's second row; registered here
     input  logic                  first_row_t2_i,    // coarse
     input  logic                  second_row_t2_i,
     input  logic [           3:0] acquisition_t2_i,
     // coarse
-    input  logic                  keep_first_i,      // four parts: what the first two of four rows have chosen is registered
-    input  logic                  keep_last_i,       // four parts: what the last two have chosen is
-    input  logic                  load_i,            // a clock after read_i; a clock later the last two rows count, of four parts the
-                                                     // first two, and then the last two
-    input  logic [PART_WIDTH-1:0] part_i,            // with load_i: of the group's bins
-    input  logic                  sweep_i,           // in the clocks in which parts count: nothing counts, the bins are looked at
+    input  logic                  keep_first_i,      // four parts: register the choices of the first two of four rows
+    input  logic                  keep_last_i,       // four parts: register the choices of the last two rows
+    input  logic                  load_i,            // one clock after read_i. One clock after load_i the last two rows count; with four parts first the
+                                                     // first two rows, and then the last two
+    input  logic [PART_WIDTH-1:0] part_i,            // with load_i: number of the part
+    input  logic                  sweep_i,           // while parts would count: nothing counts, and the pair checks the bins
     input  logic                  make_room_i,       // with sweep_i: the group's second visit; low in the other phases
     // SRAM
     input  logic                  read_i,
-    input  logic                  engine_load_i,     // an engine has read the SRAM's word, this pair's or the other's; a clock later
-    input  logic [WORD_WIDTH-1:0] read_data_i,       // a clock after read_i
-    output logic                  upper_t2_o,        // coarse, at T2 of a second row: something counts in the second of two parts
-    output logic                  write_o,           // with write_i: there is something to write
+    input  logic                  engine_load_i,     // one clock after an engine's read of this SRAM, for this pair or the other
+    input  logic [WORD_WIDTH-1:0] read_data_i,       // one clock after read_i
+    output logic                  upper_t2_o,        // coarse, at T2 of a second row: a choice falls into the second of two parts
+    output logic                  write_o,           // with write_i: this pair has data to write
     output logic [WORD_WIDTH-1:0] write_data_o,
-    input  logic                  word_load_d_i,     // the word read in this clock is to be loaded; registered here
-    input  logic                  group_load_i,      // the group read last clock
-    input  logic                  group_upper_i,     // with group_load_i: it is the word's upper half
+    input  logic                  word_load_d_i,     // the word read in this clock is to be loaded into the register; registered here
+    input  logic                  group_load_i,      // load the group that was read in the last clock
+    input  logic                  group_upper_i,     // with group_load_i: the group is in the word's upper half
     // engine
-    input  logic                  engine_i,          // no timestamps: engine, or clear
-    input  logic                  replace_i,         // a clock after read_i and before write_i: the half is the engine's
-    input  logic                  clear_i,           // a clock before write_i: both halves are 0, as is engine_word_i
-    input  logic                  select_i,          // with read_i: this pair
-    input  logic                  upper_i,           // with read_i: the word's upper half
-    input  logic                  used_i,            // with replace_i: of that half only which candidates are used
-    input  logic [HALF_WIDTH-1:0] engine_word_i,     // 0 while timestamps come
-    input  logic [LINE_WIDTH-1:0] beside_word_i,     // of the pairs to the right, as far as the segment reaches
+    input  logic                  engine_i,          // no timestamps: an engine's operation, or a clear
+    input  logic                  replace_i,         // one clock after read_i, before write_i: the engine's word replaces the selected half
+    input  logic                  clear_i,           // one clock before write_i: both halves become 0; engine_word_i is 0, too
+    input  logic                  select_i,          // with read_i: this pair is selected
+    input  logic                  upper_i,           // with read_i: the word's upper half is selected
+    input  logic                  used_i,            // with replace_i: only the bits of used candidates are replaced
+    input  logic [HALF_WIDTH-1:0] engine_word_i,     // 0 during stream phases
+    input  logic [LINE_WIDTH-1:0] beside_word_i,     // OR of the pairs to the right in this segment
     output logic [LINE_WIDTH-1:0] word_o
 );
 
   localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS);
   localparam int HALF_BINS = dtof_pkg::POOL_BINS_PER_LINE / LINE_HALVES;
-  localparam int PLACE_WIDTH = COARSE_WIDTH - PART_WIDTH;  // of a bin in a word
+  localparam int PLACE_WIDTH = COARSE_WIDTH - PART_WIDTH;  // place of a bin in a word
   localparam int LAST = COLUMNS - 1;
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int CELLS_WIDTH = LABELS * CELL_WIDTH;
@@ -125,8 +125,8 @@ module dtof_pool_pair #(
   logic [COLUMNS-1:0] detected_t1, may_have_t1, detected_t2, held_valid, upper_t2;
   logic [COLUMNS*COARSE_WIDTH-1:0] held_bin;
 
-  // Coarse: what the columns have chosen, {bin, valid} of each. Two bins count at a time, which may be the same one. Nothing
-  // is counted in other clocks, so that the word stays as it is.
+  // Coarse: the columns' choices, each {bin, valid}. Two choices count at a time, possibly in the same bin. In all other clocks no
+  // choice counts, so that counted_word equals the word.
 
   localparam int CHOICE_WIDTH = COARSE_WIDTH + 1;
   logic [2*CHOICE_WIDTH-1:0] chosen;
@@ -145,10 +145,10 @@ module dtof_pool_pair #(
     end
   end
 
-  // Sweep. The frozen bit is the first one above the lower half's bins, in every part.
+  // Sweep. In every part, the frozen bit is the first bit above the lower half's bins.
 
   localparam int FROZEN_BIT = HALF_BINS * COUNT_WIDTH;
-  logic full_q, low_q;  // some bin is full, or below a quarter of its range
+  logic full_q, low_q;  // some bin of the group is full, or below a quarter of its range
   logic first_part, rests, full_here, low_here, takes_quarter, freezes;
 
   assign first_part = (part_q == '0);
@@ -174,7 +174,7 @@ module dtof_pool_pair #(
   genvar d;
   generate
     if (PART_WIDTH == 1) begin : g_two_parts
-      // The choices last until both parts have counted.
+      // The choices hold until both parts have counted.
       for (d = 0; d < 2; d = d + 1) begin : g_choice
         logic valid, part;
         assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = chosen[d*CHOICE_WIDTH+:CHOICE_WIDTH];
@@ -185,7 +185,7 @@ module dtof_pool_pair #(
       logic unused_keep;
       assign unused_keep = ^{keep_first_i, keep_last_i};
     end else begin : g_four_parts
-      // The next four rows' first choices come before these have counted in all parts.
+      // The next four rows' first choices arrive before these choices have counted in all parts.
       logic [2*CHOICE_WIDTH-1:0] waiting_q, first_q, last_q, counted;
       logic count_last_q, counted_q;
       assign counted = count_last_q ? last_q : first_q;
@@ -230,7 +230,7 @@ module dtof_pool_pair #(
       assign second_counts = counts_here[1] && (places[PLACE_WIDTH+:PLACE_WIDTH] == PLACE_WIDTH'(b));
       assign one = first_counts ^ second_counts;
       assign two = first_counts && second_counts;
-      // Plus one or two, saturating: what a full bin does not take is left out before it is added.
+      // Adds one or two and saturates: the increment is suppressed where the bin has no room for it.
       assign full_above = &bin[COUNT_WIDTH-1:1];
       assign count = {bin[COUNT_WIDTH-1] && (bin[COUNT_WIDTH-2] || !takes_quarter), bin[COUNT_WIDTH-2] ^ takes_quarter,
                       bin[COUNT_WIDTH-3:0]};
@@ -241,7 +241,7 @@ module dtof_pool_pair #(
         assign counted_word[FIRST+n] = count[n] ^ (carry && (&count[n-1:1]));
       end
     end
-    // Bits of a half beyond its bins.
+    // Bits of a half above its bins.
     for (b = 0; b < 2; b = b + 1) begin : g_rest
       localparam int FIRST = b * HALF_WIDTH + HALF_BINS * COUNT_WIDTH;
       localparam int WIDTH = HALF_WIDTH - HALF_BINS * COUNT_WIDTH;
@@ -249,16 +249,16 @@ module dtof_pool_pair #(
     end
   endgenerate
 
-  // The word in work, and the group of its pixels. A word has four pixels: column c of row r is pixel 2 c + r.
+  // The word register and the candidates of its group. A word has four pixels: column c of row r is pixel 2 c + r.
 
   logic read_selected_q, upper_q, replaced_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load, changed_q;
   logic [CELLS_WIDTH-1:0] cells_q;
   logic [PIXEL_WIDTH-1:0] moved;
-  logic changes;  // moved is another word than before
-  // Which pixel's distance is found, and which one moved is for. A pixel without a timestamp has no turn, so that nothing
-  // moves for it.
+  logic changes;  // `moved` differs from the pixel's word
+  // [i] of turn_q: pixel i is in clock 0 of dtof_pool_pixel_update; of move_q: pixel i is in clock 1, and `moved` is its next word. A
+  // pixel without a timestamp has no turn, so that the logic does not switch.
   logic [3:0] turn_q, move_q, gets_pixel, takes_pixel;
-  logic [1:0] visit_t1, visit_q;  // whose row is complete
+  logic [1:0] visit_t1, visit_q;  // [r]: row r of a word is complete
   logic second_row_t1_q, visit_t2;
 
   assign word_load = engine_load_i || word_load_q || load_i;
@@ -270,7 +270,7 @@ module dtof_pool_pair #(
     if (group_load_i) begin
       cells_q <= group_upper_i ? read_data_i[HALF_WIDTH+:CELLS_WIDTH] : read_data_i[CELLS_WIDTH-1:0];
     end
-    // Timestamps begin when the engine's last read is long done.
+    // Held in stream phases, which begin long after the engine's last read.
     if (engine_i) begin
       read_selected_q <= read_i && select_i;
       upper_q <= upper_i;
@@ -280,8 +280,8 @@ module dtof_pool_pair #(
     end
   end
 
-  // The register takes what stands in the SRAM's word, unless something else is due: the choice rests there, for each of its
-  // changes passes all bits. The last pixel of a word goes straight to the SRAM.
+  // The multiplexer in front of the register selects the SRAM's bits unless another source is due; so its selects change rarely, since
+  // each change switches all bits. The last pixel of a word bypasses the register.
   logic [WORD_WIDTH-1:0] fresh, from_sram, next_word;
   logic whole_word;
   integer f;
@@ -299,7 +299,7 @@ module dtof_pool_pair #(
 
   assign next_word = (read_data_i & from_sram) | (fresh & ~from_sram);
 
-  // Each pixel has an enable of its own.
+  // Each pixel has a separate enable.
   genvar h;
   generate
     for (h = 0; h < 4; h = h + 1) begin : g_pixel
@@ -313,7 +313,7 @@ module dtof_pool_pair #(
     end
   endgenerate
 
-  // Track and point: whose turn it is.
+  // Track and point: the pixel whose turn it is.
 
   logic turn_valid, first_column_turn, second_column_turn;
   logic [3:0] acquisition_q;
@@ -328,7 +328,7 @@ module dtof_pool_pair #(
   assign turn_valid = (turn_q != '0);
   assign second_column_turn = turn_q[2] || turn_q[3];
   assign first_column_turn = turn_q[0] || turn_q[1];
-  // 0 where nobody has a turn, so that nothing behind moves in the coarse phase.
+  // 0 without a turn, so that the logic behind does not switch in the coarse phase.
   assign turn_timestamp = (used_t3_q & {NP{second_column_turn}}) | (used_t2[NP-1:0] & {NP{first_column_turn}});
   assign turn_hits = (hits_t3_q & {LABELS{second_column_turn}}) | (hits_t2[LABELS-1:0] & {LABELS{first_column_turn}});
 
@@ -342,13 +342,13 @@ module dtof_pool_pair #(
       | (word_q[HALF_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[2]}})
       | (word_q[HALF_WIDTH+PIXEL_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[3]}});
 
-  // The candidate that a word leans on, looked up a clock before the pixel's turn: while the word may be still to be registered,
-  // and before the next word's group takes the place of its own.
+  // Cell of the candidate that a word refers to as leader. It is looked up one clock before the pixel's turn, because the register of
+  // the candidates may hold the next word's group afterwards. At that time the pixel's word may still be on the SRAM's output.
 
   localparam int LEADER_FIRST = (RIVAL_MOVES == 0) ? POINTER_WIDTH : LABELS * SCORE_BITS;
   localparam bit HAS_LEADER = (RIVAL_MOVES == 0) || (OFFSET_BITS > 0);
   logic [3:0] turn_d;
-  logic leans;  // candidates count; to a rival that moves they do not in the pointer phase
+  logic leans;  // the phase uses candidates; with RIVAL_MOVES = 1 the pointer phase does not
   logic [CELL_WIDTH-1:0] leader_cell_q;
 
   assign leans = !coarse_i && !(RIVAL_MOVES != 0 && point_i);
@@ -358,7 +358,7 @@ module dtof_pool_pair #(
   generate
     if (HAS_LEADER) begin : g_leader
       logic [LABEL_WIDTH-1:0] leader;
-      // As turn_d, but early: T1 of a first column is never T2 of a second one. In clocks without a turn nothing takes what comes.
+      // As turn_d, but early: T1 of a first column is never T2 of a second column. In clocks without a turn the result is not used.
       logic [3:0] asks;
       logic first_asks, second_asks;
       assign first_asks = leans && !visit_t2 && may_have_t1[0];
@@ -433,7 +433,7 @@ module dtof_pool_pair #(
   generate
     for (c = 0; c < 2; c = c + 1) begin : g_half
       if (c < COLUMNS) begin : g_column
-        // The pointer's cell of the pixel at T1, which may be still to be registered. 0 where nothing asks for it.
+        // Pointer's cell of the pixel at T1, whose word may still be on the SRAM's output. 0 unless the column compares.
         localparam int CELL_FIRST = POINTER_WIDTH - CELL_WIDTH;
         logic [CELL_WIDTH-1:0] pointer_cell, first_row_cell;
         logic compares, is_read;
@@ -477,7 +477,7 @@ module dtof_pool_pair #(
         );
       end
 
-      // Which bits are not the SRAM's: the engine's, 0 to clear, counts, a pixel.
+      // Bits that do not come from the SRAM: the engine's word, 0 to clear, counts, a pixel's next word.
       logic given;
       logic [HALF_WIDTH-1:0] given_bits, pixel_bits;
       assign given = replace_i && read_selected_q && upper_q == (c == 1);
@@ -490,7 +490,7 @@ module dtof_pool_pair #(
       end
       assign from_sram[c*HALF_WIDTH+:HALF_WIDTH] = ~(given_bits | pixel_bits | {HALF_WIDTH{clear_i || counts_first}});
 
-      // What is written: the word with what is counted. The last pixel is on its way.
+      // Write data: the word with the counts, and the last pixel's next word, which is not in the register yet.
       assign write_data_o[c*HALF_WIDTH+:HALF_WIDTH] = {
           (c == 1 && move_q[3]) ? (HALF_WIDTH - PIXEL_WIDTH)'(moved) : counted_word[(c+1)*HALF_WIDTH-1:c*HALF_WIDTH+PIXEL_WIDTH],
           counted_word[c*HALF_WIDTH+:PIXEL_WIDTH]};
@@ -499,7 +499,7 @@ module dtof_pool_pair #(
 
   assign upper_t2_o = (upper_t2 != '0);
 
-  // A word in which no pixel changes is not written, nor one in which nothing counts.
+  // A word is written only if a pixel has changed or a choice has counted.
   assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts || (make_room_i && full_q)
       : changed_q || (move_q[3] && changes);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: the next word of a pixel after one timestamp, for the columns of a pair one after the other.
+// poolPointer, track and point: next word of a pixel after one timestamp, for the columns of a pair one after the other.
 //
 // Equations: docs/reference/poolpointer.md, Track, Point.
-//   clock   of a pixel
-//   0       where the timestamp is (dtof_pixel_distance), whose scores are compared; registered
-//   1       the next word, combinational
-// A clock without a timestamp leaves all registers as they are, so that nothing behind them moves.
-// Throughput: a pixel a clock. Cost at the defaults: see reports/area.md.
+//   clock
+//   0       distance of the timestamp (dtof_pixel_distance), score of the leader; registered
+//   1       next word, combinational
+// Without a timestamp all registers hold, so that the logic behind them does not switch.
+// Latency: 1 clock; a new pixel may come in every clock. Cost at the defaults: see reports/area.md.
 
 `include "dtof_macros.svh"
 
@@ -29,18 +29,18 @@ module dtof_pool_pixel_update `DTOF_TYPES_OF(dtof_pool_pkg) #(
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS)
 ) (
     input  logic                   clk_i,
-    input  logic                   track_i,        // the track phase
-    input  logic                   point_i,        // the pointer phase
+    input  logic                   track_i,        // track phase
+    input  logic                   point_i,        // pointer phase
     // clock 0
     input  logic                   valid_i,        // the pixel has a timestamp
-    input  logic [         NP-1:0] timestamp_i,    // the one that counts
-    input  logic [     LABELS-1:0] hits_i,         // candidates that it hits
-    input  logic [ CELL_WIDTH-1:0] leader_cell_i,  // of the candidate that the word leans on
+    input  logic [         NP-1:0] timestamp_i,    // timestamp that the pixel uses
+    input  logic [     LABELS-1:0] hits_i,         // candidates that the timestamp hits
+    input  logic [ CELL_WIDTH-1:0] leader_cell_i,  // cell of the candidate that the word refers to as leader
     input  logic [PIXEL_WIDTH-1:0] word_i,
     // clock 1
-    input  logic [            3:0] acquisition_i,  // mod 16
-    output logic                   changed_o,      // the last pixel with a timestamp gets another word; low in neither phase
-    output logic [PIXEL_WIDTH-1:0] word_o          // of the last pixel with a timestamp; 0 in neither phase
+    input  logic [            3:0] acquisition_i,  // number of the acquisition, mod 16
+    output logic                   changed_o,      // word_o differs from the pixel's word; low outside both phases
+    output logic [PIXEL_WIDTH-1:0] word_o          // next word of the last pixel with a timestamp; 0 outside both phases
 );
 
   logic [15:0] position;
@@ -49,7 +49,7 @@ module dtof_pool_pixel_update `DTOF_TYPES_OF(dtof_pool_pkg) #(
     if (NP == 16) begin : g_position
       assign position = timestamp_i;
     end else begin : g_middle_of_bin
-      // The middle of a timestamp's bin; zeros follow.
+      // Middle of the timestamp's bin: a 1, then zeros.
       assign position = {timestamp_i, 1'b1, {(15 - NP) {1'b0}}};
     end
   endgenerate
@@ -102,7 +102,7 @@ module dtof_pool_pixel_update `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // The next word.
+  // Next word.
 
   logic [TRACK_WIDTH-1:0] tracked;
   logic [POINT_WIDTH-1:0] pointed;

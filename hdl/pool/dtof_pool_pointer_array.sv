@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer for a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out
-// (docs/reference/poolpointer.md). Four columns share an SRAM, ENGINE_COLUMNS an engine, which decodes, chooses and
-// decides for one after the other.
+// poolPointer for a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels; input TDC timestamps, output depth codes. Equations:
+// docs/reference/poolpointer.md. Four columns share an SRAM. ENGINE_COLUMNS columns share an engine, which decodes, chooses and
+// decides for one column after the other.
 //
-// Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= acq_num_i; busy_o until done_o.
-//   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with (C, T) = (14, 20). smooth_i, sampled with
-//   start_i, too, switches S1, and with PRIOR = 1 prior_i what the last frame's choices add to this one's candidates.
-// TDC stream: as dtof_array's. Where PIXELS_PER_SRAM is no multiple of four (of eight if eight coarse bins need a whole word, as
-//   lean's do), SLOTS clocks pass between acquisitions for each row that is missing.
-// Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
-//   each engine: column engine * ENGINE_COLUMNS + column of the engine. With SECOND_TARGET = 1 tdata = {column, row,
-//   second code, second fraction, code, fraction, confidence}: the label that lost the decision, not smoothed, to which
-//   the confidence belongs as well.
-// Borders: every signal between the shared logic and columns or engines goes from a register to a register (dtof_broadcast.sv),
-//   timestamps from the port, which stands for the TDC's register, to those of their column (dtof_timestamp_input.sv). The words
-//   of an engine's pairs are combined by OR on the way to it (dtof_pool_line.sv).
-// Cycles of a frame: ACQ_NUM * (PIXELS_PER_SRAM, rounded up to that multiple) * SLOTS + what docs/reference/poolpointer.md's
-//   cycle budget says.
+// Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= acq_num_i; busy_o stays high up to the clock of done_o.
+//   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with A = acq_num and (C, T) = (14, 20). start_i also samples
+//   smooth_i, which switches S1 on, and prior_i: with PRIOR = 1 the candidates used in the last frame then raise their pair sums.
+// TDC stream: as in dtof_array. If PIXELS_PER_SRAM is no multiple of four (of eight if eight coarse bins need a whole word, as in
+//   lean), SLOTS clocks without timestamps pass for each missing row.
+// Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}, in three nested loops: column of an engine (outer), row,
+//   engine (inner); column = engine * ENGINE_COLUMNS + column of the engine. With SECOND_TARGET = 1 tdata = {column, row,
+//   second code, second fraction, code, fraction, confidence}: the second code is that of the label that lost the decision, not
+//   smoothed; the confidence holds for it, too.
+// Borders: every signal between the shared logic and columns or engines runs from a register to a register (dtof_broadcast.sv).
+//   Timestamps run from the port, which counts as the TDC's register, to the registers of their column (dtof_timestamp_input.sv). The
+//   words of an engine's pairs are combined by OR on their way to the engine (dtof_pool_line.sv).
+// Latency: the first result leaves in DECIDE, after the frame's last acquisition.
+// Cycles of a frame: ACQ_NUM * (PIXELS_PER_SRAM, rounded up to that multiple) * SLOTS, plus the cycle budget in
+//   docs/reference/poolpointer.md. Cost: reports/area.md.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -24,22 +25,22 @@
 
 module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int NP = 10,                // bits of a timestamp, 8 to 16
-    parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
+    parameter int PIXELS_PER_SRAM = 160,  // pixels of a column
     parameter int SRAM_NUM = 200,         // columns
     parameter int SLOTS = 2,              // timestamps per pixel and acquisition, 2 to 4: the SRAM has one port
     parameter int COUNT_WIDTH = 7,        // bits of a coarse bin, 4 to 8
     parameter int GROUP_SIZE = 4,         // rows of two columns that share a coarse histogram, a power of two, 4 to 32
     parameter int LABELS = 5,             // candidates of a group, 2 to 8
-    parameter int SCORE_BITS = 4,         // bits of their scores, 1 to 4
+    parameter int SCORE_BITS = 4,         // bits of a candidate's score, 1 to 4
     parameter int OFFSET_BITS = 6,        // bits of a leader's offset in the track phase, 2 to 6; 0: none
     parameter int ADVANTAGE_WIDTH = 7,    // bits of the leader's advantage, 4 or 7
-    parameter int POINTER_SHIFT = 1,      // a pointer's unit: 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2, or to 4 with 4
+    parameter int POINTER_SHIFT = 1,      // unit of a pointer: 2^(POINTER_SHIFT - 11) coarse bins; 0 to 2, with ADVANTAGE_WIDTH = 4 to 4
     parameter int RIVAL_MOVES = 1,        // 1: the rival has a pointer; 0: it stays at its candidate
-    parameter int CELL_SHIFT = 9,         // a settled pointer's cells have 2^CELL_SHIFT positions, 8 to 10: the pulse's width
+    parameter int CELL_SHIFT = 9,         // log2 of a settled pointer's cells in positions, 8 to 10, by the pulse's width
     parameter int TIME_GATE = 0,           // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
-    parameter int SECOND_TARGET = 0,      // 1: a result has the position of the label that lost, too
-    parameter int PRIOR = 0,              // 1: with prior_i candidates begin from those that were used in the last frame
-    parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
+    parameter int SECOND_TARGET = 0,      // 1: a result also has the position of the label that lost
+    parameter int PRIOR = 0,              // 1: with prior_i, candidates used in the last frame raise their pair sums
+    parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, an even number
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
     parameter int BROADCAST_STAGES = 2,   // registers between the shared logic and columns and engines, 1 to 8
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
@@ -49,19 +50,19 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    // side band of the SRAM macros, which the technology folder gives a meaning; all get the same
+    // side band of the SRAM macros, the same for all; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,  // AND of the cfg_o of all SRAM macros
-    input  logic                   start_i,  // ignored while busy_o, also in the clock of done_o
+    input  logic                   start_i,  // ignored while busy_o is high, also in the clock of done_o
     input  logic [  ACQ_WIDTH-1:0] acq_num_i,
     input  logic [         NP-1:0] gate_begin_i,  // time gate of the frame, sampled with start_i
     input  logic [         NP-1:0] gate_end_i,
     input  logic [  ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [  ACQ_WIDTH-1:0] track_end_i,
-    input  logic                   smooth_i,  // S1
-    // TEMPLATE, entry 0 lowest: what decode takes from the coarse bins; held while busy_o
+    input  logic                   smooth_i,  // 1: S1 is on in this frame
+    // TEMPLATE, entry 0 lowest: decode subtracts it from the bins' sums; stable while busy_o is high
     input  logic [dtof_pkg::POOL_COARSE_BINS*dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_i,
-    input  logic                   prior_i,   // of the frame, with PRIOR = 1; the first frame after reset has none
+    input  logic                   prior_i,   // with PRIOR = 1: this frame uses the last frame's choices; ignored in the first frame after reset
     output logic                   busy_o,
     output logic                   done_o,
     output logic [            2:0] state_o,
@@ -85,17 +86,17 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE;
   localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2);
   localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + (GROUPS + 1) / 2);
-  localparam int STEPS = dtof_pkg::max_of((SRAM_NUM < ENGINE_COLUMNS) ? SRAM_NUM : ENGINE_COLUMNS, 1);  // of an engine
+  localparam int STEPS = dtof_pkg::max_of((SRAM_NUM < ENGINE_COLUMNS) ? SRAM_NUM : ENGINE_COLUMNS, 1);  // columns of a full engine
   localparam int STEP_WIDTH = dtof_pkg::index_width(STEPS);
   localparam int STEP_PAIRS = (STEPS + 1) / 2;
   localparam int ENGINES = (SRAM_NUM + STEPS - 1) / STEPS;
   localparam int ALL_PAIRS = (SRAM_NUM + 1) / 2;
-  // Engines of one pair ask for all pairs at once, so that these do not share an SRAM.
+  // All engines select the same pair number at a time. If an engine has one pair only, two engines would select both pairs of an SRAM.
   localparam int SRAM_COLUMNS = (ENGINES > 1 && STEP_PAIRS == 1) ? 2 : 4;
   localparam int SRAM_PAIRS = SRAM_COLUMNS / 2;
   localparam int QUADS = (SRAM_NUM + SRAM_COLUMNS - 1) / SRAM_COLUMNS;
   localparam int PART_WIDTH = dtof_pkg::pool_part_width(LINE_HALVES);
-  localparam int LAST_COLUMNS = SRAM_NUM - (ENGINES - 1) * STEPS;  // of the last engine
+  localparam int LAST_COLUMNS = SRAM_NUM - (ENGINES - 1) * STEPS;  // columns of the last engine
   localparam int LAST_PAIRS = (LAST_COLUMNS + 1) / 2;
 
   `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 16, "dtof_pool_pointer_array: NP must be 8 to 16")
@@ -180,7 +181,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic [PART_WIDTH-1:0] part;
   logic sweep, make_room, groups;
 
-  // A rival that moves has no use for candidates in the pointer phase.
+  // With RIVAL_MOVES = 1 the pointer phase does not use candidates.
   assign groups = !coarse && !(RIVAL_MOVES != 0 && point);
 
   logic [NP-1:0] gate_begin, gate_end;
@@ -320,7 +321,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .hidden_o  (template_hidden)
   );
 
-  // The groups' words are of the last frame only if one has ended since reset.
+  // The SRAMs hold groups' words of a last frame only if a frame has ended since reset.
 
   generate
     if (PRIOR != 0) begin : g_prior
@@ -344,15 +345,15 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   endgenerate
 
-  // The commands on their way to pairs and engines. The last engine may have fewer columns: its last pair is then its
-  // own missing neighbour.
+  // Commands to pairs and engines. The last engine may have fewer columns; its last pair then replaces the missing neighbour to its
+  // right.
 
   logic read_q, write_q, has_right, last_has_right;
   logic [ADDR_WIDTH-1:0] address_q;
   logic [LAST_PAIRS-1:0] last_select, last_part;
 
-  // A clock later than the other commands, as the sequencers give read, write and address a clock early: in time for what a pair
-  // does before it writes.
+  // The sequencers give read, write and address one clock before the other commands; this register aligns them, in time for the data that
+  // a pair prepares before it writes.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       read_q <= 1'b0;
@@ -385,21 +386,21 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
 
     if (PRIOR != 0 && LAST_COLUMNS < STEPS && LAST_COLUMNS % 2 == 1) begin : g_missing_column
-      // The last pair's second column is worked on, although it is missing; what it uses does not count.
+      // The engines work on the last pair's missing second column, too; its choices must not count as used.
       assign last_select = last_part & {LAST_PAIRS{!(command.giving_used && engine_column == STEP_WIDTH'(LAST_COLUMNS))}};
     end else begin : g_no_missing_column
       assign last_select = last_part;
     end
   endgenerate
 
-  // Decode works on pairs, whose first column is in work.
+  // In decode engine_column is the first column of the pair in work.
   assign has_right = (engine_column != STEP_WIDTH'(command.decoding ? (STEPS - 1) / 2 * 2 : STEPS - 1));
   assign last_has_right = (engine_column != STEP_WIDTH'(command.decoding ? (LAST_COLUMNS - 1) / 2 * 2 : LAST_COLUMNS - 1));
 
   localparam int SENT_WIDTH = 2 * NP + 4 + ADDR_WIDTH + dtof_pkg::POOL_COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 27
       + dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH + dtof_pkg::POOL_TEMPLATE_WIDTH + 1;
 
-  // The commands of a clock.
+  // All commands of a clock.
   typedef struct packed {
     logic template_hidden;
     logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_entry;
@@ -439,7 +440,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     logic has_right;
     logic last_has_right;
     logic [ROW_WIDTH-1:0] scratch_row;
-    logic [dtof_pkg::POOL_COMMAND_WIDTH-1:0] command;  // pool_engine_command_t, which Yosys 0.23 takes in no type of a module
+    logic [dtof_pkg::POOL_COMMAND_WIDTH-1:0] command;  // a pool_engine_command_t; Yosys 0.23 cannot nest that type here
   } sent_t;
 
   sent_t sent, received;
@@ -501,7 +502,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   endgenerate
 
-  // Pairs of columns, two to an SRAM, in the order of the columns.
+  // Pairs of columns, two per SRAM, in the order of the columns.
 
   logic [ALL_PAIRS-1:0] selects;
   logic [ALL_PAIRS*HALF_WIDTH-1:0] engine_words;
@@ -510,7 +511,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic [ENGINES*dtof_pkg::SRAM_CFG_WIDTH-1:0] engine_cfg;
   integer i, j;
 
-  // Without a start at '1 they would copy a side band that floats, on which Icarus would evaluate this block for ever.
+  // The start at '1 keeps an undriven side band from feeding back; Icarus would otherwise evaluate this block without end.
   always_comb begin
     sram_cfg_o = '1;
     for (i = 0; i < QUADS; i = i + 1) begin
@@ -524,17 +525,17 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   genvar q, p;
   generate
     for (q = 0; q < QUADS; q = q + 1) begin : g_quad
-      localparam int LEFT = SRAM_NUM - SRAM_COLUMNS * q;  // columns from here on
+      localparam int LEFT = SRAM_NUM - SRAM_COLUMNS * q;  // columns from this SRAM on
       localparam int QUAD_COLUMNS = (LEFT < SRAM_COLUMNS) ? LEFT : SRAM_COLUMNS;
-      localparam int FIRST = SRAM_PAIRS * q;  // pair
+      localparam int FIRST = SRAM_PAIRS * q;  // number of the first pair
       localparam int QUAD_PAIRS = (QUAD_COLUMNS + 1) / 2;
       logic [LINE_WIDTH-1:0] second_word;
 
       for (p = 0; p < 2; p = p + 1) begin : g_pair
         localparam int ENGINE = (FIRST + p) / STEP_PAIRS;
-        localparam int PLACE = (FIRST + p) % STEP_PAIRS;  // of the engine's pairs
+        localparam int PLACE = (FIRST + p) % STEP_PAIRS;  // number within the engine's pairs
         localparam int PAIRS = (ENGINE == ENGINES - 1) ? LAST_PAIRS : STEP_PAIRS;
-        // The next pair of its segment gives its word to this one, and the first pair gives the OR of all to dtof_pool_line.
+        // Each pair ORs the word of the next pair in its segment; the segment's first pair drives dtof_pool_line.
         localparam int NEXT = PLACE + 1;
         logic [LINE_WIDTH-1:0] beside_word;
         if (p < QUAD_PAIRS && NEXT % dtof_pkg::POOL_LINE_PAIRS != 0 && NEXT < PAIRS) begin : g_beyond
@@ -622,7 +623,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     for (e = 0; e < ENGINES; e = e + 1) begin : g_engine
       localparam int COLUMNS = (SRAM_NUM - e * STEPS < STEPS) ? SRAM_NUM - e * STEPS : STEPS;
       localparam int PAIRS = (COLUMNS + 1) / 2;
-      localparam int FIRST = e * STEP_PAIRS;  // of all pairs, the engine's first
+      localparam int FIRST = e * STEP_PAIRS;  // number of the engine's first pair
       localparam int SEGMENTS = (PAIRS + dtof_pkg::POOL_LINE_PAIRS - 1) / dtof_pkg::POOL_LINE_PAIRS;
 
       logic [HALF_WIDTH-1:0] word;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: up to four columns, in pairs, and the single-port SRAM that they share. A word has a part of each pair
-// (dtof_pool_pair), and all accesses are common to the pairs, so that one wide macro does the work of two.
+// poolPointer: up to four columns, in pairs, and the single-port SRAM that they share. A word has a part for each pair
+// (dtof_pool_pair), and all pairs access the same address in a clock, so one wide macro replaces two.
 //
-// An engine asks for one pair and replaces a half of its part; the pair beside is read and written with it. So the pairs may
-// belong to two engines, which never ask at once: all engines work on the same one of their pairs.
-// Latency: a word that is read is with its pair a clock later.
+// An engine selects one pair and replaces a half of its part; the other pair's part is read and written back with it. The two pairs
+// may belong to two engines. These never select both pairs in a clock, because all engines work on the pair with the same number.
+// Latency: 1 clock from read_i to the pair's read_data_i.
 // Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
 
@@ -12,7 +12,7 @@
 `default_nettype none
 
 module dtof_pool_quad #(
-    parameter int COLUMNS = 4,  // fewer for the last ones
+    parameter int COLUMNS = 4,  // fewer for the last columns of an array
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 160,
     parameter int SLOTS = 2,
@@ -27,7 +27,7 @@ module dtof_pool_quad #(
     parameter int CELL_SHIFT = 9,
     parameter int TIME_GATE = 0,
     parameter int PRIOR = 0,
-    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
+    parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the columns; timestamps are delayed as much
     localparam int PAIRS = (COLUMNS + 1) / 2,
     localparam int HALF_WIDTH = dtof_pkg::pool_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                            POINTER_SHIFT, RIVAL_MOVES),
@@ -41,7 +41,7 @@ module dtof_pool_quad #(
 ) (
     input  logic                        clk_i,
     input  logic                        rst_ni,
-    // side band of the SRAM macros, which the technology folder gives a meaning
+    // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     input  logic [      COLUMNS*NP-1:0] timestamp_i,
@@ -49,7 +49,7 @@ module dtof_pool_quad #(
     input  logic                        read_i,
     input  logic                        write_i,
     input  logic [      ADDR_WIDTH-1:0] address_i,
-    // to each pair, as dtof_pool_pair says
+    // to all pairs, as in dtof_pool_pair
     input  logic [              NP-1:0] gate_begin_i,
     input  logic [              NP-1:0] gate_end_i,
     input  logic                        coarse_i,
@@ -66,7 +66,7 @@ module dtof_pool_quad #(
     input  logic                        keep_last_i,
     input  logic                        load_i,
     input  logic [      PART_WIDTH-1:0] part_i,
-    input  logic                        sweep_i,      // with load_i of the first part: a sweep, and the group's second visit in one
+    input  logic                        sweep_i,      // with load_i of the first part: this visit is a sweep; make_room_i: the group's second visit in a sweep
     input  logic                        make_room_i,
     input  logic                        word_load_d_i,
     input  logic                        group_load_i,
@@ -76,10 +76,10 @@ module dtof_pool_quad #(
     input  logic                        clear_i,
     input  logic                        upper_i,
     input  logic                        used_i,
-    // of each pair
+    // per pair
     input  logic [           PAIRS-1:0] select_i,
     input  logic [PAIRS*HALF_WIDTH-1:0] engine_word_i,
-    // of the first pair and of the second, which may be missing; ports of their own, for they are links of a chain
+    // OR of the words to the right of the first pair, and of the second pair, which may be missing; separate ports, as they form a chain
     input  logic [      LINE_WIDTH-1:0] first_beside_i,
     input  logic [      LINE_WIDTH-1:0] second_beside_i,
     output logic [      LINE_WIDTH-1:0] first_word_o,
@@ -107,11 +107,11 @@ module dtof_pool_quad #(
       .write_data_i(write_data)
   );
 
-  // The second of two parts is read at T2 of a second row. Where nothing counts in it, what was read before is loaded once more.
-  // A sweep needs both.
+  // The second of two parts is read at T2 of a second row. If no choice falls into it, the read is suppressed, and the pair loads the
+  // SRAM's unchanged output again. A sweep reads both parts.
   assign nothing_upper = (PART_WIDTH == 1) && second_row_t2_i && upper_t2 == '0 && !sweep_i;
 
-  // Timestamps begin when the engine's last read is long done.
+  // Held in stream phases, which begin long after the engine's last read.
   always_ff @(posedge clk_i) begin
     sweep_q <= sweep_i;
     make_room_q <= make_room_i;

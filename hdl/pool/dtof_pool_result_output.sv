@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: AXI4-Stream from the engines, one beat an engine for the pixel that all have just decided.
+// poolPointer: AXI4-Stream of the results: one beat per engine for each pixel that all engines have decided together.
 //
-// The way to the engines takes LATENCY clocks, and so their results are here LATENCY clocks after send_i. They are taken
-// side by side and shifted out, engine 0 first; the last engine may have fewer columns. Two more sets have a place behind
-// the one that is being sent, so that the next pixel is decided meanwhile.
-// tdata = {column, row, code, fraction, confidence}. tvalid never falls before tready.
-// Latency: one clock a beat when tready stays high.
+// Commands and results between here and the engines take LATENCY clocks, so the results of send_i arrive LATENCY clocks later. A set
+// of results, one per engine, is loaded in parallel and shifted out, engine 0 first. The last engine may have fewer columns; it then has
+// no beat for the missing ones. Two more sets fit behind the set that is being sent, so that the engines decide the next pixels meanwhile.
+// tdata = {column, row, code, fraction, confidence}. tvalid does not fall before tready.
+// Latency: LATENCY + 1 clocks from send_i to the first beat if no other set is being sent; then one beat per clock while tready is high.
 // Cost: three results per engine, counters, per array.
 `include "dtof_macros.svh"
 
@@ -24,13 +24,13 @@ module dtof_pool_result_output #(
 ) (
     input  logic                                           clk_i,
     input  logic                                           rst_ni,
-    input  logic                                           send_i,     // not begun while waits_o
-    input  logic [                         STEP_WIDTH-1:0] column_i,   // of each engine; these four with send_i
+    input  logic                                           send_i,     // must stay low in a step that begins with waits_o high
+    input  logic [                         STEP_WIDTH-1:0] column_i,   // column within each engine; column_i, row_i and last_i come with send_i
     input  logic [                          ROW_WIDTH-1:0] row_i,
-    input  logic                                           last_i,     // the frame's last pixels
-    input  logic [               ENGINES*RESULT_WIDTH-1:0] results_i,  // LATENCY clocks later
-    output logic                                           waits_o,    // there is no place for another set
-    output logic                                           busy_o,     // a set is on its way or being sent
+    input  logic                                           last_i,     // last pixels of the frame
+    input  logic [               ENGINES*RESULT_WIDTH-1:0] results_i,  // LATENCY clocks after send_i
+    output logic                                           waits_o,    // no room for another set
+    output logic                                           busy_o,     // a set is expected or is being sent
     output logic                                           tvalid_o,
     input  logic                                           tready_i,
     output logic [COLUMN_WIDTH+ROW_WIDTH+RESULT_WIDTH-1:0] tdata_o,
@@ -44,7 +44,7 @@ module dtof_pool_result_output #(
   localparam int SET_WIDTH = PLACE_WIDTH + ENGINES * RESULT_WIDTH;
   localparam logic [1:0] SETS = 2'd3;
 
-  // Sets that were asked for and are not yet sent, one of which is being sent.
+  // Number of sets that were requested and not completely sent.
 
   logic [1:0] sets_q;
   logic set_sent;
@@ -57,7 +57,7 @@ module dtof_pool_result_output #(
     end
   end
 
-  // A set comes in: its place in the array is known at once, its results later.
+  // Place of the arriving set in the array: delayed by LATENCY clocks, until its results arrive.
 
   logic arrives;
   logic [PLACE_WIDTH-1:0] place;
@@ -72,11 +72,11 @@ module dtof_pool_result_output #(
       .to_o  ({arrives, place})
   );
 
-  // The set that is being sent, and up to two behind it.
+  // The set that is being sent, and up to two sets behind it.
 
   logic valid_q, last_q, short_q, last_beat, take;
   logic [1:0] waiting_q;
-  logic [2*SET_WIDTH-1:0] waiting_sets_q;  // the older one lowest
+  logic [2*SET_WIDTH-1:0] waiting_sets_q;  // the older set lowest
   logic [SET_WIDTH-1:0] arriving, next_set;
   logic [STEP_WIDTH-1:0] next_column;
   logic [ROW_WIDTH-1:0] next_row;

@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: gives all engines and their columns their commands in each clock, in lockstep, once per array.
+// poolPointer: gives all engines and their columns their commands, in lockstep, once per array.
 //
-// 1. The controller starts one of three operations. The engines take their pairs of columns (decode) or their columns
-//    (choose, decide) one after the other; each has as many steps as it needs, and every step takes the same number of
-//    clocks.
-// 2. Decode: a step is a group. The bins of the group and of its four neighbours are read, eight at a time, and run into
-//    the decoder's ring one a clock. The ring then turns once for each candidate, and the group's word is written.
-// 3. Choose and decide: a step is a pixel of a chain. A first pass goes from a column's last pixel to its first, keeping
-//    the messages, and a second one goes back. A pixel is fetched three steps before it becomes this pixel: in the first
-//    it is prepared, in the second it takes the evidence of the columns beside, in the third it is the next pixel, whose labels
-//    pass. When all of them have passed, this pixel's best two labels are known, early in the next step. Where the pixel
-//    below has its own, too, a step later, this one's position moves towards its neighbours': choose gives its first pointer
-//    word (without SMOOTH_STARTS a step earlier) and writes two of these together; decide gives its result, and stands still
-//    at the beginning of a step while the output has not taken the last one.
-// 4. The scratch memory has for each row the message of the first pass and where the column to the left has its best label,
-//    before it moved. That is read for choose's evidence, again with each write of a message, which is beside it, and in the
-//    second pass before this column's own takes its place.
-// 5. With PRIOR decode reads a group's word of the last frame, too, before it writes the new one, and choose writes which
-//    candidates of a group are used, a step after the group's last pair of pixels.
+// 1. The controller starts one of three operations. The engines work on their pairs (decode) or on their columns (choose, decide)
+//    one after the other. An operation consists of steps; all steps of an operation have the same number of clocks.
+// 2. Decode: a step is a group. The bins of the group and of its four neighbours are read, eight at a time, and enter the
+//    decoder's ring, one bin per clock. Then the ring turns once per candidate, and the group's word is written.
+// 3. Choose and decide: a step is a pixel of a chain (docs/reference/poolpointer.md, Chain). The first pass runs from a column's last
+//    pixel to its first and stores the messages; the second pass runs back. A pixel is fetched three steps before it is this pixel: it is
+//    prepared in the first step, gets the evidence of the neighbouring columns in the second, and is the next pixel in the third, in
+//    which its labels pass. The best two labels of this pixel are known early in the following step. One step later those of the pixel
+//    below are known, too, and this pixel's position moves towards its neighbours' positions. Choose then makes the first pointer
+//    word (without SMOOTH_STARTS one step earlier) and writes two words together. Decide then makes its result, and stalls in the first
+//    clock of a step while the output has no room.
+// 4. The scratch memory has two fields per row: the message of the first pass, and the best label of the column to the left, not yet
+//    moved. The second field is read for choose's evidence; it is read again with each write of a message, because both fields are
+//    written together; and it is read in the second pass, before the column's own best label replaces it.
+// 5. With PRIOR = 1 decode also reads a group's word of the last frame before it writes the new word. Choose also writes which
+//    candidates of a group are used, one step after the group's last pair of pixels.
 //
-// Schedule: the table below. A line says in which clocks t of a step a command is given. Columns and engines have it in
-//   the next clock, and what takes longer takes the clocks that the module in question states (dtof_pkg).
-// Latency, K labels: a pair's groups x (32 K + 48) in decode, without significances (32 K + 45); (pixels + 4) and (pixels + 5) x max(K + 5, 9) in choose, without
-//   SMOOTH_STARTS twice (pixels + 4), and (pixels + 4) and (pixels + 5) x 6 in decide, a column. With PRIOR choose has a step
-//   more per column, two if the pixels are odd.
+// Schedule: the table below. Each line gives the clocks t of a step in which a command is given. Columns and engines receive it one
+//   clock later; their own latencies are in dtof_pkg.
+// Latency with K labels: decode (32 K + 48) clocks per group of a pair, without significances (32 K + 45). Choose max(K + 5, 9) clocks
+//   per step, with (pixels + 4) and (pixels + 5) steps in a column's two passes, without SMOOTH_STARTS twice (pixels + 4). Decide 6 clocks per
+//   step, with (pixels + 4) and (pixels + 5) steps. With PRIOR = 1 choose has one more step per column, two if the number of pixels is odd.
 // Cost: counters and a register of the commands, per array.
 `include "dtof_macros.svh"
 
@@ -34,10 +33,10 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int PIXELS_PER_SRAM = 160,  // rows of a column
     parameter int GROUP_SIZE = 4,         // rows of a group
     parameter int LABELS = 5,             // candidates of a group, 2 to 8
-    parameter int LINE_HALVES = 1,        // halves of a word that eight bins take, 1 or 2
+    parameter int LINE_HALVES = 1,        // halves of a word that eight bins occupy, 1 or 2
     parameter int ENGINE_COLUMNS = 34,    // columns of an engine
-    parameter int SMOOTH_STARTS = 1,      // 1: a pixel's pointer starts closer to those of the pixels around
-    parameter int PRIOR = 0,              // 1: candidates begin from those that were used in the last frame
+    parameter int SMOOTH_STARTS = 1,      // 1: the start of a pixel's pointer moves closer to its neighbours' starts
+    parameter int PRIOR = 0,              // 1: candidates used in the last frame raise their pair sums
     parameter int SIGNIFICANCE_WIDTH = 3,  // bits of a candidate's significance that a group's word keeps; 0: none
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
@@ -49,37 +48,37 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
-    // a clock that starts an operation; one at a time, and none before done_o of the one before
+    // high for one clock to start an operation: one at a time, and not before done_o of the operation before
     input  logic                    decode_i,
     input  logic                    choose_i,
     input  logic                    decide_i,
-    input  logic                    prior_i,          // in decode, with PRIOR = 1: use the last frame's words
-    output logic                    done_o,           // the operation's last clock; its results are sent
-    // pairs of columns: one clock early (_d), for the array to register and spread; at most one access a clock
+    input  logic                    prior_i,          // decode with PRIOR = 1: read the last frame's words
+    output logic                    done_o,           // last clock of an operation; all results are sent
+    // commands to the pairs, one clock early (_d): the array registers and distributes them; at most one access per clock
     output logic                    read_d_o,
     output logic                    write_d_o,
     output logic [  ADDR_WIDTH-1:0] address_d_o,
-    // of what _d has just commanded
-    output logic [       PAIRS-1:0] select_o,         // exactly one
-    output logic                    upper_o,          // the upper half of the word
-    output logic                    neighbour_o,      // select_o is the pair to the right of the one in work
-    // engines, in step with what the columns get
+    // for the access that _d commanded one clock before
+    output logic [       PAIRS-1:0] select_o,         // selected pair, one-hot
+    output logic                    upper_o,          // the upper half of the word is selected
+    output logic                    neighbour_o,      // select_o is the pair to the right of the pair in work
+    // commands to the engines, aligned with those of the columns
     output `DTOF_TYPE(dtof_pool_pkg, pool_engine_command_t) command_o,
-    // a clock before command_o: the bin whose sum the engines begin then
+    // one clock before command_o: the bin whose sum the engines begin
     output logic [$clog2(dtof_pkg::POOL_COARSE_BINS)-1:0] template_bin_o,
-    output logic [   ROW_WIDTH-1:0] scratch_row_o,    // of write_scratch and read_scratch
-    output logic [COLUMN_WIDTH-1:0] column_o,         // of a chain: the column in work
-    // results of all engines: column e ENGINE_COLUMNS + send_column_o of engine e, column by column, row by row
-    output logic                    send_o,           // in a step that began while send_waits_i was low
-    output logic [COLUMN_WIDTH-1:0] send_column_o,    // held until the next
+    output logic [   ROW_WIDTH-1:0] scratch_row_o,    // row of write_scratch and read_scratch
+    output logic [COLUMN_WIDTH-1:0] column_o,         // column in work
+    // results of all engines: column e ENGINE_COLUMNS + send_column_o of engine e; all rows of a column, then the next column
+    output logic                    send_o,           // only in a step that began while send_waits_i was low
+    output logic [COLUMN_WIDTH-1:0] send_column_o,    // holds until the next send_o
     output logic [   ROW_WIDTH-1:0] send_row_o,
-    output logic                    send_last_o,      // the frame's last pixel
-    input  logic                    send_waits_i,     // there is no room for another pixel's results
-    input  logic                    send_busy_i       // results are still being sent
+    output logic                    send_last_o,      // last pixel of the frame
+    input  logic                    send_waits_i,     // no room for another pixel's results
+    input  logic                    send_busy_i       // results are being sent
 );
 
   localparam int DECIDE_LABELS = 2;
-  localparam int LEAD = 3;  // steps a pixel is fetched ahead
+  localparam int LEAD = 3;  // steps from the fetch of a pixel until it is this pixel
   localparam int BINS = dtof_pkg::POOL_COARSE_BINS;
   localparam int OCTET = dtof_pkg::POOL_BINS_PER_LINE;
   localparam int OCTETS = BINS / OCTET;
@@ -87,10 +86,10 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
   localparam int GROUP_PAIRS = GROUP_SIZE / 2;
   localparam int FIRST_LATE_LABEL = 2;
 
-  // Clocks of a step, from the modules' latencies.
+  // Clocks of a step, derived from the modules' latencies.
 
   localparam int READ_CLOCKS = dtof_pkg::POOL_PAIR_READ_CLOCKS;
-  // From a read to a command that uses it, in decode and in a chain.
+  // From a read to a command that uses the word: in decode, and in a chain.
   localparam int DECODE_LINE_CLOCKS = READ_CLOCKS + dtof_pkg::POOL_LINE_CLOCKS;
   localparam int LINE_CLOCKS = DECODE_LINE_CLOCKS + dtof_pkg::POOL_ENGINE_LINE_CLOCKS;
 
@@ -102,29 +101,29 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
   localparam int LAST_CANDIDATE = FIRST_CANDIDATE + BINS * (LABELS - 1);
   localparam int LAST_SIGNIFICANCE = LAST_CANDIDATE + ((SIGNIFICANCE_WIDTH != 0) ? dtof_pkg::POOL_DECODER_SIGNIFICANCE_CLOCKS : 0);
   localparam int LAST_OF_DECODE = LAST_SIGNIFICANCE + READ_CLOCKS;
-  localparam int TAKE_PRIOR = FILL - 1;  // in time for the first pair sum, and read when the first bins have been
+  localparam int TAKE_PRIOR = FILL - 1;  // in time for the first pair sum; the read falls between those of the bins
 
   localparam int SPREAD = dtof_pkg::POOL_CHAIN_SPREAD_CLOCKS;
   localparam int PASS = SPREAD + 1;  // label 0
   localparam int TARGET = PASS - dtof_pkg::POOL_CHAIN_TARGET_CLOCKS;
-  localparam int BELIEF = dtof_pkg::POOL_CHAIN_BELIEF_CLOCKS - 1;  // of the next step
+  localparam int BELIEF = dtof_pkg::POOL_CHAIN_BELIEF_CLOCKS - 1;  // in the next step
   localparam int DISTANCES = BELIEF + dtof_pkg::POOL_ENGINE_DISTANCE_CLOCKS;
   localparam int RESULT = DISTANCES + dtof_pkg::POOL_ENGINE_SMOOTH_CLOCKS;
   localparam int SEND = RESULT + dtof_pkg::POOL_ENGINE_RESULT_CLOCKS;
-  localparam int READ_CELL = BELIEF + 1;           // after what the pixel before has chosen is written
+  localparam int READ_CELL = BELIEF + 1;           // after the choice of the pixel before is written
   localparam int COMPARE = READ_CELL + dtof_pkg::POOL_ENGINE_MESSAGE_CLOCKS;
-  localparam int TAKE_RIGHT = LINE_CLOCKS;         // what is read with the step's first clock
+  localparam int TAKE_RIGHT = LINE_CLOCKS;         // the word read in the step's first clock
   localparam int RANK = TAKE_RIGHT + 1;
   localparam int LAST_OF_DECIDE = dtof_pkg::max_of(PASS + DECIDE_LABELS - 1, SEND);
-  // All labels have passed and are ranked, and six accesses have their clocks.
+  // All labels have passed and are ranked, and each of six SRAM accesses has a clock.
   localparam int LAST_OF_CHOOSE = dtof_pkg::max_of(PASS + LABELS - 1, LINE_CLOCKS + dtof_pkg::max_of(LABELS, 4));
 
   localparam int T_WIDTH = $clog2(LAST_OF_DECODE + 1);
-  // A first pointer word is known a step after the pixel's best labels where its start depends on the pixel below.
+  // With SMOOTH_STARTS the start depends on the pixel below, so the first pointer word is known one step after the best labels.
   localparam int WORD_LEAD = LEAD + 1 + SMOOTH_STARTS;
-  // With PRIOR a group's used candidates are written in a step that writes no pair of pixels. The last group's step comes
-  // after a column's last pair, whose second pixel may be missing. A group has more than LEAD rows, so that when its first
-  // pixel has chosen, the group fetched last is still the same.
+  // With PRIOR = 1 a group's used candidates are written in a step that writes no pair of pixels. For the last group this step comes
+  // after the column's last pair, whose second pixel may be missing. A group has more than LEAD rows: when its first pixel has
+  // chosen, the group that was fetched last is still the same group.
   localparam int EVEN_PIXELS = PIXELS_PER_SRAM + PIXELS_PER_SRAM % 2;
   localparam int LAST_STEP = PIXELS_PER_SRAM + LEAD;
   localparam int LAST_STEP_OF_CHOOSE = (PRIOR != 0) ? EVEN_PIXELS + WORD_LEAD : LAST_STEP + SMOOTH_STARTS;
@@ -132,7 +131,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
   localparam int PAIR_WIDTH = dtof_pkg::index_width(PAIRS);
   localparam logic LAST_COLUMN_ODD = (ENGINE_COLUMNS % 2) == 0;
 
-  // Where the operation is: pair, column of the pair, pass, step, and clock of the step.
+  // State of the operation: pair, column of the pair, pass, step, clock of the step.
 
   typedef enum logic [2:0] {
     IDLE   = 3'd0,
@@ -145,9 +144,9 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
   operation_t state_q;
   logic [PAIR_WIDTH-1:0] pair_q;
   logic [PAIRS-1:0] select_q, select_d;
-  logic odd_q;                      // of a chain: the pair's second column
-  logic back_q;                     // the second pass of a chain
-  logic [STEP_WIDTH-1:0] step_q;    // of decode the group; of a chain the pixel in its pass's direction, + LEAD
+  logic odd_q;                      // chain: the pair's second column
+  logic back_q;                     // chain: the second pass
+  logic [STEP_WIDTH-1:0] step_q;    // decode: group; chain: LEAD + number of this pixel, counted in the direction of the pass
   logic [T_WIDTH-1:0] t_q, last_t;
   logic [STEP_WIDTH-1:0] last_step_number;
   logic decoding, choosing, deciding, chaining, first_pair, last_pair, last_column, last_step, step_end, pass_end, stall;
@@ -211,7 +210,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
             end
           end
         end
-        // The last command reaches the columns; the last results are sent.
+        // Waits until the last command has reached the columns and the last results are sent.
         default:
         if (!send_busy_i && !send_o) begin
           state_q <= IDLE;
@@ -222,7 +221,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   assign done_o = (state_q == FINISH) && !send_busy_i && !send_o;
 
-  // Which pixels a chain's step is about.
+  // Pixels that a chain's step works on.
 
   logic to_fetch, prepared_in_pass, next_in_pass, in_pass, done_before, chosen_before, result_before, word_before, pair_done;
   logic word_known, smooths, used_before, group_begun, group_done;
@@ -244,10 +243,10 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign prepared_in_pass = (step_q >= STEP_WIDTH'(LEAD - 2)) && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD - 2));
   assign next_in_pass = (step_q >= STEP_WIDTH'(LEAD - 1)) && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD - 1));
   assign in_pass = (step_q >= STEP_WIDTH'(LEAD)) && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD));
-  assign done_before = back_q && (step_q >= STEP_WIDTH'(LEAD + 1));  // the pixel before has its best labels, or is none
+  assign done_before = back_q && (step_q >= STEP_WIDTH'(LEAD + 1));  // the best labels of the pixel before are known, or the column has ended
   assign chosen_before = done_before && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD + 1));
-  assign result_before = back_q && (step_q >= STEP_WIDTH'(LEAD + 2));  // the one before that has its neighbours
-  assign word_before = back_q && (step_q >= STEP_WIDTH'(WORD_LEAD));   // a pixel has its first pointer word, or is none
+  assign result_before = back_q && (step_q >= STEP_WIDTH'(LEAD + 2));  // the best labels of the pixel two steps before and of its neighbours are known
+  assign word_before = back_q && (step_q >= STEP_WIDTH'(WORD_LEAD));   // a first pointer word is known, or the column has ended
   assign used_before = back_q && (step_q >= STEP_WIDTH'(WORD_LEAD + 1));
 
   generate
@@ -267,11 +266,11 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
   endgenerate
 
   assign smooths = deciding || (choosing && SMOOTH_STARTS != 0);
-  // While decide waits in a step's first clock, write_message does as well: a message is written beside what was read from
-  // its word, which a write makes undefined, so that a second write would spoil it.
+  // The stall also blocks write_message: the message is written beside what was read from the same word, and the write makes the read
+  // data undefined, so a second write would corrupt the word.
   assign stall = deciding && (t_q == '0) && send_waits_i;
 
-  // The schedule.
+  // Schedule.
 
   function automatic logic at(input int t, input int clock);
     at = (t == clock);
@@ -281,7 +280,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
     during = (t >= first) && (t <= last);
   endfunction
 
-  // `times` times from `first` on, `period` clocks apart, a power of two.
+  // True `times` times from `first` on, every `period` clocks; `period` is a power of two.
   function automatic logic every(input int t, input int first, input int period, input int times);
     every = (t >= first) && (t < first + period * times) && (((t - first) & (period - 1)) == 0);
   endfunction
@@ -309,8 +308,8 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
     read_cell = 1'b0;
     read_message = 1'b0;
 
-    // A group. The bins of the five groups are read one clock after the other, so that a bin's five counts arrive one after
-    // the other, too.
+    // Decode. The bins of the five groups are read in successive clocks, because the decoder adds a bin's five counts in successive
+    // clocks.
     if (decoding) begin
       columns.read_above    = every(t, 0, OCTET, OCTETS);
       columns.read_own      = every(t, 1, OCTET, OCTETS);
@@ -333,7 +332,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
       columns.write_group   = at(t, LAST_OF_DECODE);
     end
 
-    // What the columns beside say of the pixel to be fetched and of the one prepared.
+    // Choose: evidence of the neighbouring columns, for the pixel to be fetched and for the prepared pixel.
     if (choosing) begin
       columns.fetch_right_pixel = at(t, 0) && to_fetch;
       columns.fetch_right_group = at(t, 1) && to_fetch;
@@ -347,7 +346,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
       beside.late_compare       = (t >= COMPARE + FIRST_LATE_LABEL);
     end
 
-    // A pixel. Its best labels are known in the next step, when it is the pixel before.
+    // Choose and decide. The best labels of a pixel are known in the next step, in which it is the pixel before.
     if (chaining) begin
       chain.begin_step       = at(t, 0);
       write_message          = at(t, 0) && !back_q && in_pass && !stall;
@@ -375,7 +374,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
       chain.advance          = at(t, last);
     end
 
-    // What goes with the commands.
+    // Fields that accompany the commands.
     decode.own_bin = 5'(t - COUNT_OWN);
     decode.pair = 5'(t - FILL);
     decode.missing = 2'(decoding && step_q == '0) + 2'(decoding && last_step) + 2'(decoding && first_pair);
@@ -402,11 +401,11 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // The columns' part.
+  // SRAM access of the columns.
 
   logic read_bins, group_word, used_word, fetch_right, fetch_group, toward_left, toward_right, upper_d, neighbour_d;
   logic [STEP_WIDTH-1:0] read_group;
-  logic [OCTETS_WIDTH-1:0] bins_read;  // octets of each group
+  logic [OCTETS_WIDTH-1:0] bins_read;  // octets read so far of each group
 
   assign read_bins = columns.read_above || columns.read_own || columns.read_below || columns.read_left || columns.read_right;
   assign group_word = columns.read_prior || columns.read_group || columns.write_group;
@@ -417,7 +416,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
       || columns.fetch_group || columns.read_pair || columns.read_used;
   assign write_d_o = columns.write_group || columns.write_pair || columns.write_used;
 
-  // The first and the last group are their own missing neighbours, and so are the first and the last pair.
+  // At the array's borders the group or pair itself replaces its missing neighbour.
   assign read_group = (columns.read_above && step_q != '0) ? step_q - 1'b1
       : (columns.read_below && !last_step) ? step_q + 1'b1
       : step_q;
@@ -441,7 +440,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
       : columns.fetch_right_pixel ? !odd_q
       : odd_q;
 
-  // What is given in a clock leaves in the next.
+  // Commands are registered: they leave one clock after their t.
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -467,7 +466,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  // What the table must keep to, and who starts operations.
+  // Rules for the table, and for the starts of operations.
 
   logic [15:0] accesses;
   assign accesses = {columns.read_above, columns.read_own, columns.read_below, columns.read_left, columns.read_right,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's track word after one timestamp: scores of the candidates, leader, its offset. Combinational.
+// poolPointer, track: next track word of a pixel after one timestamp: scores of the candidates, leader, leader's offset. Combinational.
 //
-// Equation (docs/reference/poolpointer.md, Track): the lowest candidate hit gains a point, or the others lose one if its
-// score is full; it leads if it is now ahead of the leader. The leader's offset follows the timestamp by 4, 2 or 1, as
-// the leader's score grows, and starts anew with a new leader.
-// Cost: an incrementer or decrementer per score, an adder of the offset; about 20 gate delays.
+// Equation (docs/reference/poolpointer.md, Track): the lowest candidate that is hit gains a point; if its score is full, all
+// others lose a point instead. A candidate that passes the leader's score becomes the leader, and the offset becomes 0.
+// Otherwise the offset follows the timestamp by 4, 2 or 1, less with a higher score of the leader.
+// Latency: none. Cost: an incrementer or decrementer per score, an adder for the offset; about 20 gate delays.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -18,10 +18,10 @@ module dtof_pool_track_update #(
 ) (
     input  logic [TRACK_WIDTH-1:0] word_i,         // {offset, leader, scores}
     input  logic [ SCORE_BITS-1:0] leader_score_i,
-    input  logic [     LABELS-1:0] hits_i,         // none without a timestamp
+    input  logic [     LABELS-1:0] hits_i,         // candidates that the timestamp hits; 0 without a timestamp
     input  logic                   offset_up_i,
     input  logic                   offset_down_i,
-    output logic                   changed_o,      // low: the word stays as it is
+    output logic                   changed_o,      // low: word_o equals word_i
     output logic [TRACK_WIDTH-1:0] word_o
 );
 
@@ -62,7 +62,7 @@ module dtof_pool_track_update #(
     end else begin : g_leader
       localparam int SUM_WIDTH = dtof_pkg::max_of(OFFSET_BITS, 4) + 1;
       localparam logic signed [SUM_WIDTH-1:0] HIGHEST = SUM_WIDTH'((1 << (OFFSET_BITS - 1)) - 1);
-      // Leader's scores from which its offset moves by 2 and by 1.
+      // Scores of the leader from which the offset moves by 2 and by 1.
       localparam int SLOWER_FROM = 3;
       localparam int SLOWEST_FROM = 8;
 
@@ -79,7 +79,7 @@ module dtof_pool_track_update #(
         end
       end
 
-      // Offset. The limits are exact: a sum beyond them is one less or more than the numbers that OFFSET_BITS hold.
+      // Offset, limited to its range; the sum has bits enough that the comparison is exact.
 
       logic signed [SUM_WIDTH-1:0] offset, move, sum, limited;
 
@@ -89,7 +89,7 @@ module dtof_pool_track_update #(
       assign sum = offset_up_i ? offset + move : offset_down_i ? offset - move : offset;
       assign limited = (sum > HIGHEST) ? HIGHEST : (sum < ~HIGHEST) ? ~HIGHEST : sum;
 
-      // A full winner passes whoever led: the others lose a point.
+      // A candidate with a full score always passes the leader, because all others lose a point.
       assign change = hit && (winner_label != leader) && (full || winner_score >= leader_score_i);
 
       assign changed_o = (hit && !full) || (loss != '0) || change || offset_up_i || offset_down_i;

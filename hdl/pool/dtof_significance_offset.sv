@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: by how much candidates of a long frame are less significant, for its sweeps hide part of the background.
+// poolPointer, decode: correction of the significances in long frames, whose sweeps remove a part of the background's counts.
 //
-// Equation (docs/reference/poolpointer.md, Significance): (lg(A) - lg(3333)) / 2 eighth octaves, lg(3333) = 93, 0 to 17 for A of
-// up to 65,535 acquisitions, 0 for shorter frames; the largest it can say for longer ones.
+// Equation (docs/reference/poolpointer.md, Significance): (lg(A) - lg(3333)) / 2, lg(3333) = 93, in units of lg; A is the number of
+// acquisitions. 0 for A <= 3333, 17 for A = 65,535, limited to the largest number of OFFSET_WIDTH bits.
 //
-// 1. The logarithm of A is registered.
-// 2. A clock later it is the offset.
+// 1. The first clock registers lg(A).
+// 2. The second clock registers the offset.
 //
-// Schedule: offset_o is that of acq_num_i two clocks before. Cost: 12 flip-flops, a dtof_eighth_octaves, per array.
+// Latency: 2 clocks from acq_num_i to offset_o. Cost: 12 flip-flops, a dtof_eighth_octaves, per array.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

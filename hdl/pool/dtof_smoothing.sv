@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: moves a column's positions closer together: in choose where the leaders' pointers start, in decide the
-// winners (S1), of which it also makes the result word, with a confidence
-// from outside (dtof_pool_confidence, or start_margin_o).
+// poolPointer: moves the positions of a column closer to those of their neighbours: in choose the starts of the leaders' pointers, in
+// decide the winners (S1). In decide the module also makes the result word, with the confidence of dtof_pool_confidence
+// or, without significances, start_margin_o.
 //
-// Equations (docs/reference/poolpointer.md, Choose and Decide): with c the position in a row and x, y, z those in the rows
-// above and below and in the column to the left, c + ((|x - c| <= T ? x - c : 0) + (|y - c| <= T ? y - c : 0)
-// + (|z - c| <= T ? z - c : 0)) / 4, rounded towards zero. T is 1024 in dark groups, 1536 in bright ones, 2048 for long
-// pulses. A winner's result is that less half a bin, limited to what a code and a fraction can say.
+// Equations (docs/reference/poolpointer.md, Choose and Decide): c is the position in a row; x, y and z are the positions in the rows
+// above and below and in the column to the left. The new position is c + ((|x - c| <= T ? x - c : 0) + (|y - c| <= T ? y - c : 0)
+// + (|z - c| <= T ? z - c : 0)) / 4, rounded towards zero. T is 1024 in dark groups, 1536 in bright groups, and 2048 with
+// CELL_SHIFT = 10. The result is the new position minus half a bin, limited to the range of code and fraction.
 //
-// 1. Positions of a column enter from its first row on, after the last one an entry that is none: the row in the middle is
-//    the one that moves.
-// 2. The distances to its neighbours are found, then a quarter of their sum, then the start or the result.
-// 3. With SECOND_TARGET = 1 the positions that lost come along, and leave as they are, but limited in the same way.
+// 1. take_position_i shifts a column's positions through three registers (above, centre, below), from the first row to the last;
+//    after the last row one shift without a position follows. The row in the centre is the one that moves.
+// 2. take_distances_i registers the distances to the three neighbours; the next clock registers a quarter of their sum.
+// 3. With SECOND_TARGET = 1 the positions that lost the decision move along; they are limited in the same way, but not smoothed.
 //
-// Schedule: take_distances_i a clock after take_position_i or later; two clocks after that start_o is there, until the next
-//   take_position_i, and take_result_i may be given; result_o from a clock after take_result_i until the next one.
+// Schedule: take_distances_i one clock after take_position_i or later. start_o is valid from two clocks after take_distances_i until
+//   the next take_position_i; take_result_i may be given in the same time.
+// Latency: 2 clocks from take_distances_i to start_o; 1 clock from take_result_i to result_o, which holds until the next take_result_i.
 // Cost: five positions, two with margins, six adders, per engine; with SECOND_TARGET = 1 two more positions, an adder.
 
 // verilator lint_off TIMESCALEMOD
@@ -29,20 +30,20 @@ module dtof_smoothing #(
 ) (
     input  logic                        clk_i,
     input  logic                        rst_ni,
-    input  logic                        starts_i,          // positions are starts, otherwise winners
-    input  logic                        smooth_i,          // 0: winners stay where they are
-    input  logic                        has_left_i,        // there is a column to the left
+    input  logic                        starts_i,          // 1: positions are starts (choose); 0: winners (decide)
+    input  logic                        smooth_i,          // 0: winners are not smoothed
+    input  logic                        has_left_i,        // a column to the left exists
     input  logic                        take_position_i,
-    input  logic                        has_position_i,    // with take_position_i; 0 ends the column
+    input  logic                        has_position_i,    // with take_position_i; 0 in the shift after the last row
     input  logic [                15:0] position_i,
-    input  logic [                15:0] left_i,            // what the scratch memory has of the column to the left in that row
-    input  logic [                15:0] left_position_i,   // what left_o says: the position there, before it moved
+    input  logic [                15:0] left_i,            // word of the scratch memory for this row of the column to the left
+    input  logic [                15:0] left_position_i,   // position that left_o stands for: of the column to the left, not smoothed
     output logic [                15:0] left_o,            // left_i, registered with take_position_i
-    input  logic [                15:0] lost_position_i,   // with SECOND_TARGET = 1: of the label that lost
+    input  logic [                15:0] lost_position_i,   // with SECOND_TARGET = 1: position of the label that lost
     input  logic [CONFIDENCE_WIDTH-1:0] margin_i,
-    input  logic [CONFIDENCE_WIDTH-1:0] confidence_i,      // of the row in the middle, with take_result_i
-    output logic [                 2:0] near_o,            // {left, below, above}: within T of the row in the middle
-    input  logic                        bright_i,          // its group is bright
+    input  logic [CONFIDENCE_WIDTH-1:0] confidence_i,      // with take_result_i: confidence of the row in the centre
+    output logic [                 2:0] near_o,            // {left, below, above}: within T of the position in the centre
+    input  logic                        bright_i,          // the group of position_i is bright
     input  logic                        take_distances_i,
     output logic [                15:0] start_o,
     output logic [CONFIDENCE_WIDTH-1:0] start_margin_o,
@@ -54,7 +55,7 @@ module dtof_smoothing #(
   localparam int F = 16 - NP;
   localparam logic signed [16:0] DARK_REACH = (CELL_SHIFT > 9) ? 17'd2048 : 17'd1024;
   localparam logic signed [16:0] BRIGHT_REACH = (CELL_SHIFT > 9) ? 17'd2048 : 17'd1536;
-  localparam int DISTANCE_WIDTH = (CELL_SHIFT > 9) ? 13 : 12;  // within T
+  localparam int DISTANCE_WIDTH = (CELL_SHIFT > 9) ? 13 : 12;  // bits of a distance within T
   localparam int SUM_WIDTH = DISTANCE_WIDTH + 2;
   localparam logic signed [17:0] HALF_BIN = 18'((1 << F) / 2);
   localparam logic signed [17:0] LAST_POSITION = 18'(65536 - (1 << F) - 1);
@@ -89,7 +90,7 @@ module dtof_smoothing #(
 
   assign left_o = below_left_q;
 
-  // What a neighbour contributes.
+  // Distances to the neighbours; those that are too far, or to be ignored, become 0.
 
   logic signed [16:0] reach;
   logic moves;
@@ -114,7 +115,7 @@ module dtof_smoothing #(
   assign from_below = below_distance[DISTANCE_WIDTH-1:0] & {DISTANCE_WIDTH{moves && near[1]}};
   assign from_left = left_distance[DISTANCE_WIDTH-1:0] & {DISTANCE_WIDTH{moves && near[2]}};
 
-  // A quarter of the sum, rounded towards zero.
+  // A quarter of the sum of distances, rounded towards zero.
 
   logic signed [DISTANCE_WIDTH-1:0] from_above_q, from_below_q, from_left_q;
   logic signed [SUM_WIDTH-1:0] sum, rounded;
@@ -144,11 +145,11 @@ module dtof_smoothing #(
     end
   end
 
-  // A start is between its neighbours, so that it needs no limits.
+  // A start moves towards its neighbours, so it stays within the range and needs no limit.
   assign start_o = smoothed[15:0];
   assign start_margin_o = centre_margin_q;
 
-  // The result, and with it the position that lost, which is as many rows behind as the winner.
+  // Result, and the position that lost, delayed by as many rows as the winner.
 
   generate
     if (SECOND_TARGET != 0) begin : g_second_target

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's pointer word after one timestamp: leader's and rival's pointers, advantage. Combinational.
+// poolPointer, point: next pointer word of a pixel after one timestamp: pointers of leader and rival, advantage. Combinational.
 //
-// Equation (docs/reference/poolpointer.md, Point): in reach the pointer moves by (2^gear weight + dither) >> 2 units
-// of 2^-11 coarse bin towards the timestamp, rounded down to the pointer's unit u; dither = (a mod 4) u +
-// (a >> 2) mod u. Hits raise the advantage n, the rival's hits lower it and at n = 0 change roles.
-// RIVAL_MOVES = 1: both pointers are absolute and the rival follows its hits in cells, quarters of a coarse bin.
+// Equation (docs/reference/poolpointer.md, Point): if the timestamp is in reach, the pointer moves towards it by
+// (2^gear weight + dither) >> 2 units of 2^-11 coarse bin, rounded down to the pointer's unit u = 2^POINTER_SHIFT;
+// dither = (a mod 4) u + (a >> 2) mod u, with a the number of the acquisition. A hit of the leader raises the advantage n. A hit of
+// the rival lowers n; at n = 0 leader and rival change roles instead.
+// RIVAL_MOVES = 1: both pointers are absolute, and the rival's pointer follows its hits in cells, quarters of a coarse bin.
 // RIVAL_MOVES = 0: the pointer is relative to candidate a, the rival is candidate b.
-// The pointer moves if 2^gear weight and the dither make a unit, up or down; changed_o also counts a move that saturates.
-// Cost: an adder of the pointer's width, a shifter; about 25 gate delays.
+// changed_o is also high for a move that saturates.
+// Latency: none. Cost: an adder of the pointer's width, a shifter; about 25 gate delays.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module dtof_twin_pointer_update #(
     parameter int LABELS = 5,
-    parameter int ADVANTAGE_WIDTH = 7,  // 7, or 4 with the short gears, multiples of u
+    parameter int ADVANTAGE_WIDTH = 7,  // 7, or 4 (gears whose moves are multiples of u)
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES),
@@ -30,12 +31,12 @@ module dtof_twin_pointer_update #(
     input  logic                   rival_hit_i,
     input  logic                   rival_up_i,
     input  logic                   rival_down_i,
-    input  logic [            3:0] acquisition_i,  // mod 16
-    output logic                   changed_o,      // low: the word stays as it is; without update_i, too
+    input  logic [            3:0] acquisition_i,  // number of the acquisition, mod 16
+    output logic                   changed_o,      // low: word_o equals the word; also low without update_i
     output logic [POINT_WIDTH-1:0] word_o          // 0 without update_i
 );
 
-  // Bits of a move below the pointer's unit, which decide with the dither whether it goes one farther.
+  // Bits of a move below the pointer's unit; with the dither they decide whether the move is rounded up.
   localparam int BELOW_UNIT = (ADVANTAGE_WIDTH == 4) ? 0 : POINTER_SHIFT;
   localparam int MOVE_WIDTH = ((ADVANTAGE_WIDTH == 4) ? 10 : 9) - POINTER_SHIFT;
   localparam int DITHER_WIDTH = BELOW_UNIT + 2;
@@ -48,7 +49,7 @@ module dtof_twin_pointer_update #(
 
   localparam logic [ADVANTAGE_WIDTH-1:0] HALF_ADVANTAGE = ADVANTAGE_WIDTH'(1 << (ADVANTAGE_WIDTH - 1));
 
-  // Stands below the pointer, so that one adder adds it and rounds down; downwards it is its complement.
+  // Placed below the pointer's lowest bit, so that one adder adds the dither and rounds down; for a move down the dither is inverted.
   logic [DITHER_WIDTH-1:0] dither;
   generate
     if (BELOW_UNIT == 0) begin : g_dither
@@ -69,11 +70,11 @@ module dtof_twin_pointer_update #(
   logic [SUM_WIDTH+DITHER_WIDTH-1:0] start, step, fine_sum;
   logic signed [SUM_WIDTH-1:0] sum;
 
-  logic fourth, sixteenth;  // acquisition of 4, of 16
+  logic fourth, sixteenth;  // every 4th acquisition, every 16th
   assign fourth = (acquisition_i[1:0] == 2'd0);
   assign sixteenth = (acquisition_i == 4'd0);
 
-  // Under update_i alone, so that a simulator works on words that are updated; the defaults say that nothing is kept.
+  // Inside if (update_i), so that a simulator evaluates it for updates only; the defaults avoid latches.
   always_comb begin
     word_o = '0;
     changed_o = 1'b0;
@@ -107,12 +108,12 @@ module dtof_twin_pointer_update #(
 
       product = PRODUCT_WIDTH'(weight_i) << gear_i;
 
-      // Counts beyond half of the range are slowed down.
+      // In the upper half of the range only every 4th, then every 16th acquisition counts.
       counted = (advantage < HALF_ADVANTAGE)
           || (fourth && (advantage < HALF_ADVANTAGE + HALF_ADVANTAGE / 2 || sixteenth));
       swap = rival_hit_i && (advantage == '0);
 
-      // 1, 0, -1: a swap comes with n = 0, after which it is 1. There is no hit of both.
+      // Step of n: 1, 0 or -1. A change of roles happens at n = 0 and sets n to 1. Leader and rival are never hit together.
       gain = (hit_i && counted && (advantage != '1)) || swap;
       loss = rival_hit_i && counted && !swap;
       rival_moves = (RIVAL_MOVES != 0) && rival_hit_i && (rival_up_i || rival_down_i);

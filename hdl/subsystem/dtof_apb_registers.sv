@@ -6,8 +6,9 @@
 // does not have. Such an access writes nothing. pstrb_i selects bytes; there is no pprot.
 // Settings become valid together, with COMMIT or START. CONTROL, IRQ_ENABLE, WATCHDOG and SHOT_SEED are valid at once. If software
 // clears a bit in the clock of a new event, the bit stays set.
-// Latency: a command is a pulse in the clock after its write.
-// Cost: the settings' flip-flops, twice, SRAM_NUM of them for the columns, and the read multiplexer.
+// Schedule: clock 0 is APB's setup, clock 1 its access: a write takes effect at the end of clock 1; prdata_o is combinational.
+// Latency: a command is a pulse in the clock after its write; a committed setting is at its output in the clock after the commit.
+// Cost: two flip-flops per bit of a setting, SRAM_NUM such bits for the columns, and the read multiplexer.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -32,7 +33,7 @@ module dtof_apb_registers #(
     parameter int FRACTION_WIDTH = 0,
     parameter int CONFIDENCE_WIDTH = 4,
     parameter int ACQ_WIDTH = 16,
-    // constants that software reads; those from GROUP_SIZE on read as 0 without HAS_SCHEDULE
+    // constants that software reads; from GROUP_SIZE on they read as 0 without HAS_SCHEDULE
     parameter int COUNT_WIDTH = 10,
     parameter int NB = 5,
     parameter int WINDOW_CENTRED = 0,
@@ -71,19 +72,19 @@ module dtof_apb_registers #(
     output logic                 continuous_o,
     output logic [         23:0] watchdog_o,
     output logic [         15:0] shot_seed_o,
-    output logic                 shot_reseed_o,  // in the clock behind a write of SHOT_SEED
-    // those that were committed
+    output logic                 shot_reseed_o,  // in the clock after a write of SHOT_SEED
+    // committed settings
     output logic                 second_o,       // 0 without SECOND_TARGET
-    output logic                 raw_o,          // these three are 0 without RAW_HISTOGRAM
+    output logic                 raw_o,          // raw_o, raw_first_o and raw_last_o are 0 without RAW_HISTOGRAM
     output logic [         11:0] raw_first_o,
     output logic [         11:0] raw_last_o,
     output logic [ACQ_WIDTH-1:0] acquisitions_o,
-    output logic [ACQ_WIDTH-1:0] coarse_end_o,   // these three are 0 without HAS_SCHEDULE
+    output logic [ACQ_WIDTH-1:0] coarse_end_o,   // coarse_end_o, track_end_o and smooth_o are 0 without HAS_SCHEDULE
     output logic [ACQ_WIDTH-1:0] track_end_o,
     output logic                 smooth_o,
-    output logic [        255:0] template_o,     // written, not committed; does not change while busy_i; 0 without HAS_SCHEDULE
+    output logic [        255:0] template_o,     // written without a commit; writable only while busy_i is low; 0 without HAS_SCHEDULE
     output logic                 prior_o,        // 0 without PRIOR
-    output logic [       NP-1:0] gate_begin_o,   // these two are 0 without TIME_GATE
+    output logic [       NP-1:0] gate_begin_o,   // gate_begin_o and gate_end_o are 0 without TIME_GATE
     output logic [       NP-1:0] gate_end_o,
     output logic [         15:0] release_o,
     output logic [         15:0] weak_below_o,
@@ -121,16 +122,16 @@ module dtof_apb_registers #(
 
   localparam int ERRORS = 9;
   localparam int WARNINGS = 4;
-  localparam int CAUSES = 2;  // of an interrupt
+  localparam int CAUSES = 2;  // causes of an interrupt
   localparam int WEAK_WIDTH = dtof_pkg::min_of(CONFIDENCE_WIDTH + 1, 16);
 
-  // One write a transfer, in its second clock.
+  // A write takes effect in the transfer's second clock.
 
   logic access, known, writable, write, commit;
   logic [11:0] offset;
-  logic [31:0] mask;     // bits to write
-  logic [31:0] written;  // bits that are written as 1
-  logic [31:0] there;    // bits of a register that this configuration has; all where a 1 does no harm
+  logic [31:0] mask;     // bits that pstrb_i selects
+  logic [31:0] written;  // selected bits that are written as 1
+  logic [31:0] there;    // bits that a write of 1 may set: fields of this configuration, or all bits where a 1 has no effect
 
   assign offset = {paddr_i[11:2], 2'b00};
   assign access = psel_i && penable_i;
@@ -148,7 +149,7 @@ module dtof_apb_registers #(
   logic unused_address;
   assign unused_address = ^paddr_i[1:0];
 
-  // Commands, settings, and what events leave behind.
+  // Commands, settings, and flags that events set.
 
   logic start_q, flush_q, abort_q, continuous_q;
   logic [ERRORS-1:0] error_q, error_event, error_cleared;
@@ -260,7 +261,7 @@ module dtof_apb_registers #(
   assign shot_reseed_o = shot_reseed_q;
   assign irq_o = |(cause_q & cause_enable_q);
 
-  // What was written, of what this configuration has.
+  // Settings that not every configuration has.
 
   logic second, raw, smooth, prior;
   logic [11:0] raw_first, raw_last;
@@ -376,7 +377,7 @@ module dtof_apb_registers #(
     end
   endgenerate
 
-  // TEMPLATE + 4 k has the entries 4 k to 4 k + 3.
+  // The register at TEMPLATE + 4 k has entries 4 k to 4 k + 3.
 
   localparam int TEMPLATE_WORDS = 8;
   logic is_template;
@@ -409,7 +410,7 @@ module dtof_apb_registers #(
   assign template_index = offset[4:2] - FIRST_TEMPLATE_WORD;
   assign template_word = template_o[32*template_index+:32];
 
-  // The columns: COLUMN_ENABLE + 4 k has those from 32 k on.
+  // Columns: the register at COLUMN_ENABLE + 4 k has columns from 32 k on.
 
   localparam int ENABLE_WORDS = (SRAM_NUM + 31) / 32;
   logic [32*ENABLE_WORDS-1:0] enable_words;
@@ -437,7 +438,7 @@ module dtof_apb_registers #(
   assign enable_word = (32'(enable_index) < ENABLE_WORDS)
       ? enable_words[32*enable_index[ENABLE_INDEX_WIDTH-1:0]+:32] : '0;
 
-  // What was committed; no frame begins before a START, which commits.
+  // Committed settings. They need no reset, because no frame begins before START, which commits.
 
   always_ff @(posedge clk_i) begin
     if (commit) begin
@@ -461,7 +462,7 @@ module dtof_apb_registers #(
     end
   end
 
-  // What can be written.
+  // Bits that can be written.
 
   localparam logic [31:0] ACQ_BITS = 32'hffffffff >> (32 - ACQ_WIDTH);
   localparam logic [31:0] NP_BITS = 32'hffffffff >> (32 - NP);
@@ -507,7 +508,7 @@ module dtof_apb_registers #(
     endcase
   end
 
-  // Reading.
+  // Read data.
 
   always_comb begin
     prdata_o = '0;

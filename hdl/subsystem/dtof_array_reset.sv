@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ends an array's frame at any time, whatever the array waits for: a reset of the array alone.
+// Ends an array's frame at any time and in any state, by a reset of the array alone.
 //
-// 1. Behind abort_i the array is in reset for eight clocks, in which its clock runs: what has no reset leaves its pipelines.
-// 2. For three more clocks its clock rests, so that the release has more than a period for its way.
-// 3. busy_o is high meanwhile. An abort_i in these clocks begins them again.
+// 1. After abort_i the array is in reset for eight clocks. Its clock runs, so that registers without a reset leave its pipelines.
+// 2. For three more clocks its clock is stopped, so that the release of the reset has more than a period to reach all flip-flops.
+// 3. busy_o is high during these eleven clocks. An abort_i in this time starts them again.
 //
-// With scan_mode_i the tester has the array's reset at a pin.
+// With scan_mode_i the array's reset is rst_ni, so that a tester controls it from a pin.
+// Schedule (abort_i in clock 0): reset_o is high in clocks 1 to 8, busy_o in clocks 1 to 11. Latency: 1 clock.
 // Cost: a counter of four bits, a flip-flop, an AND in the array's reset.
 
 // verilator lint_off TIMESCALEMOD
@@ -17,15 +18,15 @@ module dtof_array_reset (
     input  logic scan_mode_i,
     input  logic abort_i,
     output logic busy_o,
-    output logic reset_o,      // the array is in this reset, and its clock is to run
-    output logic array_rst_no  // rst_ni, and this reset
+    output logic reset_o,      // the array is in this reset, and its clock must run
+    output logic array_rst_no  // rst_ni combined with this reset
 );
 
   localparam logic [3:0] RESTING = 4'd3;
   localparam logic [3:0] ALL = 4'd11;
 
-  logic [3:0] left_q;  // clocks
-  logic reset_q;       // left_q > RESTING, without a gate between flip-flop and reset
+  logic [3:0] left_q;  // clocks until busy_o falls
+  logic reset_q;       // left_q > RESTING; a flip-flop of its own, so that no gate output can glitch on the reset
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// AXI4-Lite to APB4, one transfer at a time; of a read and a write that wait both, the kind that was not last goes first.
+// AXI4-Lite to APB4, one transfer at a time. If a read and a write are both pending, the kind that was not last goes first.
 //
-// 1. A request's parts are held when they come, in any order: every ready comes from a flip-flop, and no path leads from one
-//    channel to another.
-// 2. A read, or a write with both of its parts, goes to the APB when the transfer before ends and its response will find room.
-// 3. Two responses of each kind may wait for their ready. pslverr_i becomes the response SLVERR. prot is not looked at.
+// 1. Address and data of a request are registered as they come, in any order: every ready comes from a flip-flop, and no path leads
+//    from one channel to another.
+// 2. A read, or a write with both of its parts, starts on the APB when the transfer before has ended and its response will have room.
+// 3. Two responses of each kind are stored until their ready. pslverr_i becomes the response SLVERR. The prot signals are not used.
 //
-// Latency: from the last of a request's parts to its response, four clocks and the APB's wait states. A read every two
-// clocks, as APB has them.
+// Schedule: clock 0 the last part of a request, clock 1 that part is registered, clocks 2 and 3 setup and access on the APB,
+//   clock 4 the response. Latency: four clocks from the last part of a request to its response, plus wait states of the APB.
+// Throughput: a read every two clocks, as APB has them.
 // Cost: address and data of a request and of a transfer, two responses of each kind, ten state bits.
 `include "dtof_macros.svh"
 
@@ -52,7 +53,7 @@ module dtof_axi_lite_to_apb #(
   localparam logic [1:0] OKAY = 2'b00;
   localparam logic [1:0] SLVERR = 2'b10;
 
-  // Requests: each part is held until the APB takes it.
+  // Requests: each part is held until the APB transfer starts.
 
   logic aw_held_q, w_held_q, ar_held_q, takes_write, takes_read;
   logic [ADDR_WIDTH-1:0] aw_address_q, ar_address_q;
@@ -88,13 +89,13 @@ module dtof_axi_lite_to_apb #(
     end
   end
 
-  // The APB.
+  // APB transfer.
 
-  logic select_q, enable_q, write_q;  // write_q: the kind of the last transfer
+  logic select_q, enable_q, write_q;  // write_q: the last transfer was a write
   logic [ADDR_WIDTH-1:0] address_q;
   logic [31:0] data_q;
   logic [3:0] strobe_q;
-  logic [1:0] writes_q, reads_q;  // responses that wait
+  logic [1:0] writes_q, reads_q;  // stored responses
   logic free, can_write, can_read, ends;
 
   assign ends = select_q && enable_q && pready_i;
@@ -138,7 +139,7 @@ module dtof_axi_lite_to_apb #(
   assign pwdata_o = data_q;
   assign pstrb_o = strobe_q;
 
-  // Responses: the one at the port, and one behind it.
+  // Responses: one at the port, and one behind it.
 
   logic [32:0] read_q, read_behind_q;  // {error, data}
   logic write_error_q, write_error_behind_q;

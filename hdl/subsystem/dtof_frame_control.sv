@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Starts an array's frames, singly or continuously, and counts the frames and their clocks.
 //
-// 1. start_i begins a frame, if no frame is under way and the settings are legal.
+// 1. start_i begins a frame if no frame is in progress and the settings are legal.
 // 2. With continuous_i the next frame begins in the clock after the array's done_i.
-// 3. With illegal settings no frame begins, and continuous frames end. start_i while busy_o is ignored. An output is high for one
-//    clock in either case.
-// 4. abort_i ends the present frame at once. The next frame begins with a start_i when the array is ready again.
+// 3. With illegal settings no frame begins, and continuous frames end (illegal_schedule_o). start_i while busy_o is high has no
+//    effect (start_ignored_o).
+// 4. abort_i ends the present frame at once. The next frame begins with a start_i after the array's reset (resetting_i).
 //
-// Legal is a schedule in order (HAS_SCHEDULE = 1), coarse_end <= track_end <= acquisitions;
-// 1 <= release <= MOST_RELEASE; and with raw_i (RAW_HISTOGRAM = 1) raw_first <= raw_last < PIXELS_PER_SRAM.
-// Cost: a cycle counter and the last frame's cycles, a frame counter, two comparators of ACQ_WIDTH bits.
+// Equation: the settings are legal if coarse_end <= track_end <= acquisitions (HAS_SCHEDULE = 1), 1 <= release <= MOST_RELEASE, and,
+// with raw_i (RAW_HISTOGRAM = 1), raw_first <= raw_last < PIXELS_PER_SRAM.
+// Latency: none from start_i to begin_o; 1 clock from done_i to begin_o of the next frame.
+// Cost: a counter and a register of 32 bits for the cycles, a frame counter of 32 bits, comparators of the settings.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -26,23 +27,23 @@ module dtof_frame_control #(
     input  logic                 rst_ni,
     input  logic                 start_i,
     input  logic                 abort_i,
-    input  logic                 resetting_i,         // the array is not ready yet behind abort_i
+    input  logic                 resetting_i,         // the array's reset after abort_i is not over yet
     input  logic                 continuous_i,
     input  logic [ACQ_WIDTH-1:0] acquisitions_i,
     input  logic [ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [ACQ_WIDTH-1:0] track_end_i,
     input  logic [         15:0] release_i,
-    input  logic                 raw_i,               // these three are 0 without RAW_HISTOGRAM
+    input  logic                 raw_i,               // raw_i, raw_first_i and raw_last_i are 0 without RAW_HISTOGRAM
     input  logic [         11:0] raw_first_i,
     input  logic [         11:0] raw_last_i,
-    output logic                 begin_o,             // the array's start: its settings are sampled
-    input  logic                 done_i,              // the array's last clock
-    input  logic                 frame_i,             // the frame's last result was taken
-    output logic                 running_o,           // a frame is under way or about to begin by itself
-    output logic                 busy_o,              // the same, or the array is not ready yet behind abort_i
-    output logic                 start_ignored_o,     // these three for one clock
+    output logic                 begin_o,             // start of the array, which samples its settings
+    input  logic                 done_i,              // last clock of the array's frame
+    input  logic                 frame_i,             // the sink has taken the frame's last result
+    output logic                 running_o,           // a frame is in progress, or a continuous frame is about to begin
+    output logic                 busy_o,              // running_o, or the array's reset after abort_i is not over yet
+    output logic                 start_ignored_o,     // these three outputs are high for one clock
     output logic                 illegal_schedule_o,
-    output logic                 aborted_o,           // a frame was under way when abort_i came
+    output logic                 aborted_o,           // abort_i came during a frame
     output logic [         31:0] frame_count_o,
     output logic [         31:0] frame_cycles_o       // from begin_o to done_i, both included
 );

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // CRC-32 over the words of a frame as the receiver takes them.
 //
-// 1. Each word that is taken goes into the checksum, its lowest bit first. A frame's first word begins a new one.
-// 2. With a frame's last word the checksum becomes crc_o and stays there until the next frame's last word. A frame that was cut off
+// 1. Each word that the receiver takes enters the checksum, its lowest bit first. A frame's first word begins a new checksum.
+// 2. After a frame's last word the checksum is in crc_o, and stays there until the next frame's last word. A frame that was cut off
 //    (aborted_i) leaves crc_o as it is.
 //
-// Equation: CRC-32 of IEEE 802.3, reflected: polynomial 0xEDB88320, all ones at first, complemented at the end. It is the crc32 of
-// zlib over the words as bytes, the lowest byte first.
-// Schedule: a word is taken in clock 0 and registered, its checksum is there in clock 2. irq_o can rise in clock 1, and a read of a
-// register that begins then has its data in clock 2.
-// Cost: WIDTH + 67 flip-flops, for 64 bits 853 two-input XORs, as Yosys shares them.
+// Equation: CRC-32 of IEEE 802.3, reflected: polynomial 0xEDB88320, initial value all ones, complemented at the end. The result is the
+// crc32 of zlib over the words as bytes, the lowest byte first.
+// Schedule: clock 0 the word is taken, clock 1 the word is registered, clock 2 its checksum is registered. irq_o can rise in clock 1; a
+// read transfer that begins in clock 1 has its data phase in clock 2, so it reads the new crc_o.
+// Latency: 2 clocks. Cost: WIDTH + 67 flip-flops, for 64 bits 853 two-input XORs, as Yosys shares them.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -24,7 +24,7 @@ module dtof_frame_crc #(
     input  logic             first_i,    // a frame's first word
     input  logic             last_i,     // a frame's last word
     input  logic             aborted_i,  // the last word of a frame that was cut off
-    output logic [     31:0] crc_o       // of the last frame that came whole
+    output logic [     31:0] crc_o       // the last frame that was not aborted
 );
 
   localparam logic [31:0] POLYNOMIAL = 32'hedb88320;

@@ -28,51 +28,51 @@
 
 module dtof_line_buffer #(
     parameter int ACQUISITION_LINES = 320,  // of an acquisition
-    parameter int LINES = 2,                // that the memory holds; of an SRAM one more waits at its output
+    parameter int LINES = 2,                // lines that the memory holds; an SRAM has one more line at its output
     parameter int WIDTH = 2000,             // bits of a line
     parameter int REGISTERS = 1,            // 1: lines are in registers, 0: in an SRAM
-    parameter int CLOCK_WAITS = 1,          // 1: the array's clock rests with wait_o
-    parameter int SOURCE_WAITS = 1,         // 0: a line that finds no room is lost, and its acquisition with it
+    parameter int CLOCK_WAITS = 1,          // 1: wait_o stops the array's clock
+    parameter int SOURCE_WAITS = 1,         // 0: a line without room is lost, with its acquisition
     parameter int PARITY = 0,               // 1: each word of an SRAM has a parity bit
     localparam int LEVEL_WIDTH = $clog2(LINES + 2)
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    // side band of the SRAM macros, which the technology folder gives a meaning
+    // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
-    input  logic                   flush_i,      // without abort_i: not while an acquisition is under way
-    input  logic                   abort_i,      // the array's frame ends here
-    input  logic                   expire_i,     // without effect where starved_o is low
-    input  logic                   done_i,       // the array's frame ends by itself
+    input  logic                   flush_i,      // without abort_i: only between acquisitions
+    input  logic                   abort_i,      // the array's frame ends now
+    input  logic                   expire_i,     // no effect while starved_o is low
+    input  logic                   done_i,       // the array's frame ends regularly
     input  logic [           15:0] release_i,    // 1 to ACQUISITION_LINES; CLOCK_WAITS = 0: at most LINES
     output logic [LEVEL_WIDTH-1:0] level_o,      // lines in the buffer
     output logic                   starved_o,    // the array waits for an acquisition or for a line inside one
     output logic                   wait_o,       // stops the array's clock: a line is late inside an acquisition
     output logic                   queued_o,     // the buffer has an acquisition that the array has not begun
-    output logic                   inside_o,     // the source is inside an acquisition behind this clock
-    output logic                   early_o,      // CLOCK_WAITS = 1: the source is not to be asked for an acquisition: fewer than release_i
-                                                 // lines of the last one have come or, if those are all, the array does not wait
-    // these for one clock
+    output logic                   inside_o,     // the source is inside an acquisition after this clock
+    output logic                   early_o,      // CLOCK_WAITS = 1: do not request the next acquisition yet: fewer than release_i lines of the
+                                                 // present one have come or, if release_i is a whole acquisition, the array does not wait
+    // each high for one clock
     output logic                   kept_o,       // a line was accepted and stored
     output logic                   arrives_o,    // the first line of an acquisition was accepted
-    output logic                   rest_ends_o,  // the last line of a rest that is thrown away was accepted
+    output logic                   rest_ends_o,  // the last line of an ignored rest was accepted
     output logic                   taken_o,      // the array takes the first line of an acquisition
-    output logic                   taken_last_o, // the array takes the last line of one
-    output logic                   underrun_o,   // the array needs a line that is not here: once an acquisition
+    output logic                   taken_last_o, // the array takes the last line of an acquisition
+    output logic                   underrun_o,   // the array needs a line that has not arrived; once per acquisition
     output logic                   short_o,      // s_tlast_i came before an acquisition's last line
-    output logic                   long_o,       // s_tlast_i did not come with it
+    output logic                   long_o,       // s_tlast_i did not come with an acquisition's last line
     output logic                   dropped_o,    // an acquisition found no room
-    output logic [  LEVEL_WIDTH:0] lost_lines_o, // so many lines of the source are thrown away by themselves
+    output logic [  LEVEL_WIDTH:0] lost_lines_o, // number of the source's lines that are lost in this clock
     output logic                   parity_error_o,      // a line that was read two clocks ago is damaged
-    output logic [            1:0] lost_acquisitions_o, // one was dropped, and the array has taken one with lines that are missing
+    output logic [            1:0] lost_acquisitions_o, // one for a dropped acquisition, one for an acquisition that the array has taken with missing lines
     // from the source, AXI4-Stream
     input  logic                   s_tvalid_i,
     output logic                   s_tready_o,   // low in reset
     input  logic [      WIDTH-1:0] s_tdata_i,
     input  logic                   s_tlast_i,    // the last line of an acquisition
     // to the array
-    output logic                   line_valid_o,  // high for a whole acquisition, with wait_o, too
+    output logic                   line_valid_o,  // high for a whole acquisition, also during wait_o
     input  logic                   line_ready_i,
     output logic [      WIDTH-1:0] line_o
 );
@@ -87,27 +87,27 @@ module dtof_line_buffer #(
   `DTOF_REQUIRE(g_illegal_room, SOURCE_WAITS != 0 || REGISTERS != 0 || LINES >= 3,
                 "dtof_line_buffer: LINES of an SRAM must be at least 3 with SOURCE_WAITS = 0")
 
-  // The source's side. A line is stored with whether its acquisition ends with it.
+  // Source side. Each line is stored with a flag: its acquisition ends with it.
 
   logic [ADDR_WIDTH-1:0] write_address_q, read_address_q;
   logic [LEVEL_WIDTH-1:0] stored_q;    // in the memory
   logic [LEVEL_WIDTH-1:0] complete_q;  // acquisitions whose end is in the buffer
-  logic [LEVEL_WIDTH-1:0] queued_q;    // acquisitions that have begun to arrive, and the array has not begun them
+  logic [LEVEL_WIDTH-1:0] queued_q;    // acquisitions of which a line has arrived, and that the array has not begun
   logic [INDEX_WIDTH-1:0] source_line_q;
   logic live_q;    // not in reset
-  logic behind_q;  // what comes up to s_tlast_i belongs to an acquisition that is over
-  logic rest_q;    // likewise, and neither an abort nor a timeout has ended it
+  logic behind_q;  // the rest of a past acquisition, up to s_tlast_i, is ignored
+  logic rest_q;    // likewise, but not because of an abort or a timeout
   logic drain_q;   // the rest of the frame is "no detection" for the array
   logic accepted, write, ends, read, take, head_here, head_ends, empties, expires;
-  logic begun, drops;  // begun: the array has begun the source's acquisition; 1 where nothing is dropped
-  logic room;          // registers take a line where one leaves
+  logic begun, drops;  // begun: the array has begun the source's acquisition; always 1 with SOURCE_WAITS = 1
+  logic room;          // room for a line; registers also have room if a line leaves in this clock
   logic [ADDR_WIDTH-1:0] first_address_q;  // of the source's acquisition
   logic [ADDR_WIDTH-1:0] following_read;
-  logic [LEVEL_WIDTH-1:0] kept;  // lines that stay behind this clock where its acquisition is dropped
+  logic [LEVEL_WIDTH-1:0] kept;  // lines that remain after this clock if the source's acquisition is dropped
 
   assign empties = flush_i || abort_i || expires;
   assign accepted = s_tvalid_i && s_tready_o;
-  // An SRAM is not written where it is read. Of a source that cannot wait it keeps a place for the acquisition that the array has begun.
+  // An SRAM is never written at the address that is read. With SOURCE_WAITS = 0 it keeps one place free for an acquisition that has begun.
   assign room = (REGISTERS != 0) ? (stored_q != LEVEL_WIDTH'(LINES) || take)
       : (SOURCE_WAITS != 0) ? (stored_q != LEVEL_WIDTH'(LINES)) : (stored_q < LEVEL_WIDTH'(LINES - 1) || begun);
   assign write = accepted && !behind_q && !empties && !drops;
@@ -190,7 +190,7 @@ module dtof_line_buffer #(
     end
   end
 
-  // The line at the head stays there until the array takes it, or it is thrown away.
+  // The line at the head stays until the array takes it or the buffer ignores it.
 
   logic [WIDTH-1:0] head;
 
@@ -224,7 +224,7 @@ module dtof_line_buffer #(
       logic unused_cfg;
       assign unused_cfg = ^sram_cfg_i;
     end else begin : g_sram
-      logic head_q;  // the line at the memory's output
+      logic head_q;  // the memory's output has a line
 
       assign head_here = head_q;
       assign read = (stored_q != '0) && (!head_q || take);
@@ -259,14 +259,14 @@ module dtof_line_buffer #(
     end
   endgenerate
 
-  // The array's side.
+  // Array side.
 
   logic inside_q, starved_q;
   logic fill_q;     // the rest of the acquisition is "no detection"
-  logic discard_q;  // the lines at the head up to their acquisition's end are too late
-  logic [INDEX_WIDTH-1:0] line_q;  // of the acquisition
+  logic discard_q;  // lines at the head are too late, up to the end of their acquisition
+  logic [INDEX_WIDTH-1:0] line_q;  // number of the line in the acquisition
   logic begin_allowed, step, last_line, missing;
-  logic [LEVEL_WIDTH-1:0] lost_stored, lost_here;  // lines that were in the buffer, and at its ends
+  logic [LEVEL_WIDTH-1:0] lost_stored, lost_here;  // lost lines that were stored; lost lines at the head or at the source
 
   assign begin_allowed = drain_q
       || (head_here && !discard_q && (CLOCK_WAITS != 0 || complete_q != '0 || 16'(level_o) >= release_i));
@@ -280,7 +280,7 @@ module dtof_line_buffer #(
   assign underrun_o = step && inside_q && !head_here && !fill_q && !drain_q;
   assign line_o = missing ? '1 : head;
   assign take = head_here && ((step && !missing) || discard_q);
-  // A line that is on its way through an SRAM is here.
+  // A line between the SRAM and its output has arrived.
   assign starved_o = ((starved_q || line_ready_i) && !line_valid_o) || (wait_o && stored_q == '0);
   assign expires = expire_i && starved_o;
   assign lost_stored = expires ? level_o : drops ? LEVEL_WIDTH'(source_line_q) : '0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a line of timestamps counts: those of enabled columns and, with TIME_GATE = 1, those inside the time gate.
+// Replaces timestamps that do not count by "no detection": those of disabled columns and, with TIME_GATE = 1, those outside the
+// time gate. Combinational.
 //
 // Equation: x' = (column enabled and gate_begin_i <= x < gate_end_i) ? x : "no detection" (all ones).
 // Latency: none; the arrays register the line.
-// Cost: NP gates a column; the time gate adds two comparators of NP bits a column.
+// Cost: NP gates per column; with TIME_GATE = 1 two more comparators of NP bits per column.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

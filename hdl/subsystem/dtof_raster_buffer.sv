@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts a frame's results into raster order (row by row, within a row column by column), for any order from the array. With
-// TARGETS = 2 either each pixel of a frame has one result, or each has two, and the second comes directly after the first.
+// Sorts a frame's results into raster order (row by row, within a row column by column), from any order of the array. With
+// TARGETS = 2 each pixel of a frame has one result, or each pixel has two and the second comes directly after the first.
 //
-// 1. Each result is written to its pixel's address, until the frame's last result.
-// 2. Then all results leave, from the first address to the last. The results of the next frame wait until then.
+// 1. Each result is written to the address of its pixel, until the frame's last result.
+// 2. Then all results leave, from the first address to the last. Results of the next frame are not accepted before the end.
 // 3. cut_i ends a frame that is arriving: none of its results leaves. It also ends a frame that is leaving: the result at the port
 //    stays until the sink takes it. Unless this was the last result, a result with m_aborted_o and m_tlast_o follows, whose other
 //    fields have no meaning.
 //
+// Schedule in: clock 0 accepts a result and registers its address, clock 1 writes it. Out: clock 0 reads, clock 1 has the result at the port.
 // Latency: the frame. One result per clock enters; after the last one, one result per clock leaves.
 // Cost: a single-port SRAM of SRAM_NUM * PIXELS_PER_SRAM * TARGETS results of WIDTH bits, an address, a row and a column.
 `include "dtof_macros.svh"
@@ -18,28 +19,28 @@
 module dtof_raster_buffer #(
     parameter int SRAM_NUM = 200,         // columns
     parameter int PIXELS_PER_SRAM = 160,  // rows
-    parameter int WIDTH = 27,             // bits of a result beside its place
+    parameter int WIDTH = 27,             // bits of a result without row and column
     parameter int PARITY = 0,             // 1: each word of the memory has a parity bit
-    parameter int TARGETS = 1,            // results of a pixel, at most: 1 or 2
+    parameter int TARGETS = 1,            // results per pixel, at most: 1 or 2
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
-    // side band of the SRAM macros, which the technology folder gives a meaning
+    // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     output logic                   parity_error_o,  // a result that was read two clocks ago is damaged
-    input  logic                    cut_i,       // what comes next is another frame's
-    // each pixel of a frame once, or each once and once more with s_second_i
+    input  logic                    cut_i,       // ends the present frame; the next result is of another frame
+    // each pixel of a frame once, or each pixel once more with s_second_i
     input  logic                    s_tvalid_i,
     output logic                    s_tready_o,
     input  logic [       WIDTH-1:0] s_result_i,
     input  logic [COLUMN_WIDTH-1:0] s_column_i,
     input  logic [   ROW_WIDTH-1:0] s_row_i,
     input  logic                    s_second_i,  // 0 if TARGETS = 1
-    input  logic                    s_tlast_i,   // the frame's last
-    // the same in order
+    input  logic                    s_tlast_i,   // last result of the frame
+    // the same results in raster order
     output logic                    m_tvalid_o,
     input  logic                    m_tready_i,
     output logic [       WIDTH-1:0] m_result_o,
@@ -55,7 +56,7 @@ module dtof_raster_buffer #(
   localparam logic [COLUMN_WIDTH-1:0] LAST_COLUMN = COLUMN_WIDTH'(SRAM_NUM - 1);
   localparam logic [ROW_WIDTH-1:0] LAST_ROW = ROW_WIDTH'(PIXELS_PER_SRAM - 1);
 
-  // In: the address is a product, so that it has a register of its own.
+  // Input. The address is a product and therefore has a register.
 
   logic reading_q, unread_q, write_q, ends_q, head_q, both_q, both;
   logic [WIDTH-1:0] written_q;
@@ -69,19 +70,19 @@ module dtof_raster_buffer #(
     if (accepted) begin
       written_q <= s_result_i;
       write_address_q <= ADDR_WIDTH'((32'(s_row_i) * SRAM_NUM + 32'(s_column_i)) * TARGETS + 32'(s_second_i));
-      both_q <= s_second_i;  // the frame's last result tells
+      both_q <= s_second_i;  // the value of the frame's last result counts
     end
   end
 
-  // Out: the result at the memory's output (head_q) stays there until the next is read.
+  // Output. The result at the memory's output (head_q) stays until the next read.
 
-  logic aborted_q;  // behind the result at the output, if there is one, the frame ends as aborted
+  logic aborted_q;  // the frame ends as aborted after the result at the output, if there is a result
   logic ended, shown, stays_open;
 
   assign read = reading_q && unread_q && !cut_i && (!head_q || m_tready_i);
   assign taken = head_q && m_tready_i;
-  assign ended = m_tready_i && (head_q ? last_place : aborted_q);  // the port's word was the last, and was taken
-  // A result has been at the port, and the one that was there last does not end the frame.
+  assign ended = m_tready_i && (head_q ? last_place : aborted_q);  // the sink has taken the frame's last word
+  // A result has been at the port, and the last result at the port was not the frame's last.
   assign shown = head_q || (m_column_o != '0) || (m_row_o != '0) || m_second_o;
   assign stays_open = shown && !(head_q && last_place) && !(aborted_q && !head_q && m_tready_i);
   assign both = (TARGETS > 1) && both_q;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reset that may be released at any time, released at a clock's edge: stands in front of rst_ni of dtof_subsystem or of an
-// array, one for each clock.
+// Synchronises the release of a reset to a clock. Place one in front of rst_ni of dtof_subsystem or of an array, one per clock.
 //
-// rst_no falls with rst_ni at once, clock or not, and rises at the second edge behind rst_ni's rise. With scan_mode_i it is
-// rst_ni itself, so that a tester has the reset at a pin; scan_mode_i changes only while rst_ni is low.
+// rst_no falls with rst_ni at once, even without a clock, and rises at the second clock edge after rst_ni has risen. With scan_mode_i
+// rst_no is rst_ni itself, so that a tester controls the reset from a pin; scan_mode_i changes only while rst_ni is low.
 // Latency: two clocks to release.
 // Cost: two flip-flops, a multiplexer.
 
@@ -12,9 +11,9 @@
 
 module dtof_reset_synchroniser (
     input  logic clk_i,
-    input  logic rst_ni,       // of any clock
+    input  logic rst_ni,       // asynchronous to clk_i
     input  logic scan_mode_i,
-    output logic rst_no        // of clk_i
+    output logic rst_no        // released synchronously to clk_i
 );
 
   logic [1:0] released_q;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts what happens since reset, several in a clock, and stays at its largest value.
+// Counts events since reset, several per clock, and stays at its largest value.
 //
+// Equation: count' = min(count + step, 2^WIDTH - 1). Latency: 1 clock.
 // Cost: a register and an adder of WIDTH bits.
 
 // verilator lint_off TIMESCALEMOD

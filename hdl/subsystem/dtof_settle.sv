@@ -20,16 +20,16 @@ module dtof_settle #(
     input  logic             rst_ni,
     input  logic [WIDTH-1:0] settle_i,  // acquisitions, sampled with begin_i
     input  logic             begin_i,   // a frame begins
-    input  logic             abort_i,   // the frame ends here
-    input  logic             give_up_i, // the frame takes no line of the source any more
-    // of an acquisition that leaves the line buffer
+    input  logic             abort_i,   // the frame ends now
+    input  logic             give_up_i, // the frame takes no more lines of the source
+    // from an acquisition that leaves the line buffer
     input  logic             first_i,   // its first line is taken
     input  logic             last_i,    // its last line is taken
-    output logic             drops_o,   // the acquisition that leaves the line buffer now or next is not the array's
-    output logic             takes_o    // and it has begun: its lines are taken, whether the array is ready or not
+    output logic             drops_o,   // the acquisition that leaves the line buffer now or next is dropped
+    output logic             takes_o    // a dropped acquisition is leaving: its lines are taken, whether the array is ready or not
 );
 
-  logic [WIDTH-1:0] left_q;  // acquisitions to drop, with the one that is leaving
+  logic [WIDTH-1:0] left_q;  // acquisitions still to drop, including the one that is leaving
   logic inside_q;            // an acquisition is leaving
 
   assign drops_o = (left_q != '0);

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fires the laser and starts the TDCs, once for each acquisition of a frame, a pseudo-random time behind the request for it.
+// Fires the laser and starts the TDCs, once for each acquisition of a frame, a pseudo-random time after the request for it.
 //
-// 1. A frame that begins asks for its first acquisition. Each later one is asked for when the array has begun the one before.
-// 2. A shot is requested when the frame still needs an acquisition, the line buffer has none that the array has not begun, and the
-//    source owes none. The source owes one from shot_o to arrives_i; behind abort_i also the rest of the one that it is in.
-// 3. The shot waits for (state & (2^bits_i - 1)) * unit_i clocks. Shot and TDC start move together, so no timestamp changes, but
+// 1. A frame that begins requests its first acquisition. Each later acquisition is requested when the array has begun the one before.
+// 2. A shot is requested if the frame still needs an acquisition, the line buffer has no acquisition that the array has not begun, and
+//    no acquisition is outstanding. An acquisition is outstanding from shot_o to arrives_i; after abort_i the rest of the acquisition that
+//    the source is delivering is outstanding, too.
+// 3. The shot is delayed by (state & (2^bits_i - 1)) * unit_i clocks. Shot and TDC start move together, so no timestamp changes, but
 //    light that does not follow the laser falls into another code in each acquisition.
 // 4. The state is that of a linear feedback register of 16 bits, x^16 + x^14 + x^13 + x^11 + 1 (maximal length), which makes 16
-//    steps for each request. This is the sequence of FiringOffsets in models/dtof/photon/surroundings.hpp. It goes on from frame
-//    to frame; reseed_i loads seed_i, and 1 where seed_i is 0, which would stay 0. With bits_i = 0 the state rests.
-// 5. give_up_i (the source is dead), abort_i, and a frame that needs no more acquisitions cancel a request that was not fired.
-//    After flush_i and give_up_i the source owes no acquisition.
+//    steps per request. This is the sequence of FiringOffsets in models/dtof/photon/surroundings.hpp. It continues from frame
+//    to frame. reseed_i loads seed_i, or 1 instead of 0, because the register cannot leave 0. With bits_i = 0 the state holds.
+// 5. give_up_i (the source is dead), abort_i, and a frame that needs no more acquisitions cancel a request that has not fired.
+//    After flush_i and give_up_i no acquisition is outstanding.
 //
-// Schedule: a request in clock 0, with its delay of d units: shot_o is high in clock 2 + d * unit_i alone, from a flip-flop.
+// Schedule: for a request in clock 0 with a delay of d units, shot_o is high in clock 2 + d * unit_i only, from a flip-flop.
+// Latency: 2 clocks without a delay.
 // Source: firing offsets against other lasers; what they achieve is in reports/hostile_scenes.md (other-laser-offsets).
 // Cost: 62 flip-flops and ACQ_WIDTH, 48 two-input XORs for the register's 16 steps, three counters.
 `include "dtof_macros.svh"
@@ -30,32 +32,32 @@ module dtof_shot_dither #(
     input  logic                   rst_ni,
     input  logic                   reseed_i,
     input  logic [STATE_WIDTH-1:0] seed_i,
-    // the next frame's, sampled with begin_i
+    // of the next frame, sampled with begin_i
     input  logic [ BITS_WIDTH-1:0] bits_i,          // 0: every delay is 0
-    input  logic [ UNIT_WIDTH-1:0] unit_i,          // clocks; 0: likewise
+    input  logic [ UNIT_WIDTH-1:0] unit_i,          // clocks of a unit; 0: every delay is 0
     input  logic [  ACQ_WIDTH-1:0] acquisitions_i,
     input  logic                   begin_i,         // a frame begins
-    input  logic                   abort_i,         // the frame ends here
+    input  logic                   abort_i,         // the frame ends now
     input  logic                   flush_i,         // the source was stopped
-    input  logic                   give_up_i,       // the frame takes no line any more
-    // the line buffer's
+    input  logic                   give_up_i,       // the frame takes no more lines
+    // from the line buffer
     input  logic                   arrives_i,       // the first line of an acquisition is accepted
-    input  logic                   queued_i,        // an acquisition is there that the array has not begun
+    input  logic                   queued_i,        // an acquisition has begun to arrive, and the array has not begun it
     input  logic                   taken_i,         // the array begins an acquisition
     input  logic                   inside_i,        // the source is inside an acquisition
-    input  logic                   early_i,         // it is not to be asked for the next one yet
-    input  logic                   rest_ends_i,     // the end of an acquisition that is thrown away is accepted
+    input  logic                   early_i,         // do not request the next acquisition yet
+    input  logic                   rest_ends_i,     // the last line of an ignored rest is accepted
     output logic                   shot_o,          // fires the laser and starts the TDCs, for one clock
-    output logic [STATE_WIDTH-1:0] first_state_o    // the state when the last frame began
+    output logic [STATE_WIDTH-1:0] first_state_o    // the state at the begin of the last frame
 );
 
-  localparam int UNITS_WIDTH = (1 << BITS_WIDTH) - 1;  // bits of a delay in units
+  localparam int UNITS_WIDTH = (1 << BITS_WIDTH) - 1;  // bits of a delay, in units
 
   `DTOF_REQUIRE(g_illegal_bits, BITS_WIDTH >= 1 && BITS_WIDTH <= 4, "dtof_shot_dither: BITS_WIDTH must be 1 to 4")
 
-  // The state, and the one that is 16 steps further.
+  // The state, and the state 16 steps later.
 
-  // A step shifts to the right and sets bit 15 to bits 0, 2, 3 and 5 (XOR). Of 16 steps the first eleven need the state alone.
+  // A step shifts right and sets bit 15 to the XOR of bits 0, 2, 3 and 5. The first eleven of 16 steps depend on the present state alone.
   logic [STATE_WIDTH-1:0] state_q, first_state_q, seed, further;
   logic [10:0] first_bits;
   logic [4:0] last_bits;
@@ -65,16 +67,16 @@ module dtof_shot_dither #(
   assign further = {last_bits, first_bits};
   assign seed = (seed_i == '0) ? STATE_WIDTH'(1) : seed_i;
 
-  // The frame's need, and what is on its way.
+  // Needed acquisitions, and outstanding ones.
 
   logic [ACQ_WIDTH-1:0] left_q;  // acquisitions that the array has not begun
-  logic owed_q;                  // a shot was fired, its acquisition has not arrived
-  logic rest_q;                  // the source is inside an acquisition that an abort has ended
-  logic waits_q;                 // a shot was requested and has not been fired
+  logic owed_q;                  // a shot was fired, and its acquisition has not arrived
+  logic rest_q;                  // the source is delivering the rest of an acquisition that an abort has ended
+  logic waits_q;                 // a shot was requested and has not fired
   logic shot_q;
   logic [BITS_WIDTH-1:0] bits_q;
   logic [UNIT_WIDTH-1:0] unit_q, clock_q;
-  logic [UNITS_WIDTH-1:0] units_q, drawn;  // of the delay that is left
+  logic [UNITS_WIDTH-1:0] units_q, drawn;  // units_q: units left of the delay
   logic ends, wanted, request, fires;
 
   assign ends = abort_i || flush_i || give_up_i;
@@ -133,7 +135,7 @@ module dtof_shot_dither #(
   assign shot_o = shot_q;
   assign first_state_o = first_state_q;
 
-  // taken_i comes only where queued_i was high, so that the need cannot end between decision and shot.
+  // taken_i comes only while queued_i is high, so the need cannot end between the decision and the shot.
   `DTOF_ASSERT(a_needed, !shot_q || left_q != '0, "a shot is fired for an acquisition that the frame does not need")
 
 endmodule

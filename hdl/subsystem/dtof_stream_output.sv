@@ -9,7 +9,7 @@
 // tuser marks a frame's first word, tlast its last word.
 // cut_i ends the frame: the word at the port stays until the sink takes it, and the second word is deleted. If words of the frame, but
 // not its last, have been at the port, a word in which only `aborted` is set, with tlast, ends the frame.
-// Latency: one clock. A word a clock while tready stays high. tvalid never falls before tready.
+// Latency: one clock. One word per clock while tready stays high. tvalid never falls before tready.
 // Cost: two words, a comparator, a multiplexer of SRAM_NUM bits.
 `include "dtof_macros.svh"
 
@@ -21,30 +21,30 @@ module dtof_stream_output #(
     parameter int ROW_WIDTH = 8,
     parameter int POSITION_WIDTH = 10,    // code and fraction, at most 16
     parameter int CONFIDENCE_WIDTH = 4,   // at most 16; 0: none
-    parameter int HAS_CONFIDENCE = (CONFIDENCE_WIDTH > 0) ? 1 : 0,  // 0: it is a count of raw frames alone
-    parameter int COUNTER_WIDTH = CONFIDENCE_WIDTH,      // bits of the counter that the confidence is; 0: it is none
-    parameter int RAW_COUNTER_WIDTH = CONFIDENCE_WIDTH,  // bits of a bin of a raw frame
+    parameter int HAS_CONFIDENCE = (CONFIDENCE_WIDTH > 0) ? 1 : 0,  // 0: the field has counts of raw frames only
+    parameter int COUNTER_WIDTH = CONFIDENCE_WIDTH,      // bits of the counter that the confidence shows; 0: the confidence is no counter
+    parameter int RAW_COUNTER_WIDTH = CONFIDENCE_WIDTH,  // bits of a bin in a raw frame
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
     localparam int WORD_WIDTH = dtof_registers_pkg::RESULT_WIDTH
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    input  logic [           15:0] weak_below_i,   // these three do not change during a frame
+    input  logic [           15:0] weak_below_i,   // weak_below_i, enable_i and raw_i are stable during a frame
     input  logic [   SRAM_NUM-1:0] enable_i,
     input  logic                   raw_i,          // the frame's results are counts
-    input  logic                   cut_i,          // what comes next is another frame's
+    input  logic                   cut_i,          // ends the present frame; the next result is of another frame
     // from the array
     input  logic                   result_tvalid_i,
     output logic                   result_tready_o,
     input  logic [TDATA_WIDTH-1:0] result_tdata_i,  // {column, row, code, fraction, confidence}
-    input  logic                   result_second_i, // a pixel's second target
-    input  logic                   result_tlast_i,  // the frame's last
+    input  logic                   result_second_i, // second target of a pixel
+    input  logic                   result_tlast_i,  // last result of the frame
     // AXI4-Stream
     output logic                   m_axis_tvalid_o,
     input  logic                   m_axis_tready_i,
     output logic [ WORD_WIDTH-1:0] m_axis_tdata_o,
-    output logic                   m_axis_tuser_o,  // the frame's first
+    output logic                   m_axis_tuser_o,  // first word of the frame
     output logic                   m_axis_tlast_o
 );
 
@@ -94,10 +94,10 @@ module dtof_stream_output #(
     word[dtof_registers_pkg::RESULT_RAW_LSB] = raw_i;
   end
 
-  // The word at the port, and one behind it for the clock in which the array learns that the sink waits.
+  // The word at the port, and a second word for the clock before result_tready_o follows a sink that is not ready.
 
   logic valid_q, last_q, first_q, behind_q, behind_last_q, behind_first_q, begins_q;
-  logic open_q;  // the frame whose word was the last at the port has not ended with it
+  logic open_q;  // the last word at the port was not the last of its frame
   logic [WORD_WIDTH-1:0] word_q, behind_word_q, enters_word;
   logic accepted, aborts, enters, enters_last, enters_first, waits, moves;
 

@@ -21,8 +21,8 @@
 //
 // READOUT selects the read-out: dtof_pkg::READOUT_*. READOUT_POOLPOINTER is dtof_pool_pointer_array, all others are dtof_array. The
 // parameters that follow are those of the arrays, with the default of the read-out.
-// Latency: one clock from a line to the array (two where the line buffer is an SRAM), one from the array to a result.
-// Cost: beside the array, BUFFER_LINES lines, two bits a column, and the parts' (reports/fpga_check.md).
+// Latency: one clock from a line to the array (two if the line buffer is an SRAM), one clock from the array to a result.
+// Cost: the array, BUFFER_LINES lines, two bits per column, and the modules of this folder (reports/fpga_check.md).
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -100,20 +100,20 @@ module dtof_subsystem #(
     parameter int TRACK_SHARE = 20,
     // verilator lint_on UNUSEDPARAM
     // end of parameters of the arrays
-    parameter int CLOCK_WAITS = 1,   // 1: the array's clock waits for lines, behind a gate that works; 0: it goes on between them
-    parameter int SOURCE_WAITS = 1,  // 0: TDCs that cannot wait; where there is no room, whole acquisitions are dropped
-    // Lines that the line buffer holds, at least two, in registers up to eight. CLOCK_WAITS = 1: one, and those that come in the array's
-    // longest wait for its raster, SLOTS - 1 clocks. CLOCK_WAITS = 0: those of an acquisition and four hold a whole one while it is taken.
+    parameter int CLOCK_WAITS = 1,   // 1: the array's clock stops until a late line arrives, which needs a working clock gate; 0: the clock runs on
+    parameter int SOURCE_WAITS = 1,  // 0: for TDCs that cannot wait; if there is no room, whole acquisitions are dropped
+    // Lines that the line buffer holds, at least two; up to eight are in registers. CLOCK_WAITS = 1: one line, and the lines that come in the
+    // array's longest wait for its raster, SLOTS - 1 clocks. CLOCK_WAITS = 0: the lines of an acquisition, and four that come while it is taken.
     parameter int BUFFER_LINES = (CLOCK_WAITS != 0) ? dtof_pkg::max_of(SLOTS, 2) : PIXELS_PER_SRAM * SLOTS + 4,
-    parameter int RASTER_ORDER = 0,  // 1: a memory of all results brings them into the order of rows and columns
-    parameter int PARITY = 0,        // 1: the words of the subsystem's own memories have parity bits; the array's have none
+    parameter int RASTER_ORDER = 0,  // 1: a memory of all results sorts them by row and column
+    parameter int PARITY = 0,        // 1: words of the subsystem's memories have parity bits; the array's memories have none
     localparam int S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8),
     localparam int M_TDATA_WIDTH = dtof_registers_pkg::RESULT_WIDTH
 ) (
     input  logic                     clk_i,
     input  logic                     rst_ni,
     input  logic                     scan_mode_i,      // 1: the array's clock is never gated
-    // side band of the SRAM macros, which the technology folder gives a meaning; all get the same
+    // side band of the SRAM macros, the same for all; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,  // AND of the cfg_o of all SRAM macros
     // APB4, registers
@@ -137,21 +137,21 @@ module dtof_subsystem #(
     output logic                     m_axis_tvalid_o,
     input  logic                     m_axis_tready_i,
     output logic [M_TDATA_WIDTH-1:0] m_axis_tdata_o,
-    output logic                     m_axis_tuser_o,   // a frame's first
-    output logic                     m_axis_tlast_o    // a frame's last
+    output logic                     m_axis_tuser_o,   // first word of a frame
+    output logic                     m_axis_tlast_o    // last word of a frame
 );
 
   localparam int POOL = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 1 : 0;
   localparam int ACQUISITION_LINES = PIXELS_PER_SRAM * SLOTS;
   localparam int MOST_RELEASE = (CLOCK_WAITS != 0) ? ACQUISITION_LINES : dtof_pkg::min_of(ACQUISITION_LINES, BUFFER_LINES);
-  localparam int MOST_REGISTERS = 8;  // lines; more of them are in an SRAM
+  localparam int MOST_REGISTERS = 8;  // lines; a longer buffer is an SRAM
   localparam int LEVEL_WIDTH = $clog2(BUFFER_LINES + 2);
   localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM);
   localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM);
   localparam int FRACTION_WIDTH = (POOL != 0) ? 16 - NP : dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
   localparam int RESULT_CONFIDENCE_WIDTH = (POOL != 0) ? dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH)
       : dtof_pkg::confidence_width(READOUT, COUNT_WIDTH, CONFIDENCE_WIDTH);
-  // A count of a raw frame takes the place of the confidence.
+  // In a raw frame the field of the confidence has a count.
   localparam int KEPT_CONFIDENCE_WIDTH = (POOL != 0) ? RESULT_CONFIDENCE_WIDTH
       : dtof_pkg::confidence_width(READOUT, COUNT_WIDTH,
                                    dtof_pkg::kept_confidence_width(CONFIDENCE_WIDTH, COUNT_WIDTH, RAW_HISTOGRAM));
@@ -184,7 +184,7 @@ module dtof_subsystem #(
   `DTOF_REQUIRE(g_illegal_source, SOURCE_WAITS == 0 || SOURCE_WAITS == 1, "dtof_subsystem: SOURCE_WAITS must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_parity, PARITY == 0 || PARITY == 1, "dtof_subsystem: PARITY must be 0 or 1")
 
-  // Registers and frames.
+  // Registers and control of frames.
 
   logic [255:0] coarse_template;
   logic start, flush, abort, continuous, second, raw, smooth, prior, begin_frame, running, busy, done, frame;
@@ -348,7 +348,7 @@ module dtof_subsystem #(
       .array_rst_no(array_rst_n)
   );
 
-  // What this frame uses; the array samples its own.
+  // Settings of the present frame; the array samples its own.
 
   logic [SRAM_NUM-1:0] frame_enable_q;
   logic [NP-1:0] frame_gate_begin_q, frame_gate_end_q;
@@ -376,13 +376,13 @@ module dtof_subsystem #(
 
   assign sram_cfg_o = buffer_cfg & array_cfg & raster_cfg;
 
-  // Lines in.
+  // Lines of timestamps.
 
   logic tdc_valid, tdc_ready, starved, kept, expired, queued, source_inside, source_early, arrives, rest_ends, taken, dropped;
   logic line_waits;   // a line is late inside an acquisition
-  logic drops;        // the acquisition that leaves the line buffer is not the array's
+  logic drops;        // the acquisition that leaves the line buffer is dropped
   logic settle_takes, line_ready, taken_last, array_valid;
-  logic array_waits;  // the array's clock rests, because a line is late
+  logic array_waits;  // the array's clock is stopped, because a line is late
   logic [1:0] lost_acquisition;
   logic [LEVEL_WIDTH:0] lost;
   logic [SRAM_NUM*NP-1:0] line, timestamps;
@@ -446,7 +446,7 @@ module dtof_subsystem #(
 
   assign timeout = expired && running && starved && !abort;
 
-  // Acquisitions that a frame drops, and all that it needs; a frame of no acquisition takes none.
+  // Acquisitions that a frame drops, and all that it needs; a frame without acquisitions takes none.
   localparam int NEED_WIDTH = dtof_pkg::max_of(ACQ_WIDTH, 16) + 1;
   logic [15:0] frame_settle;
   logic [NEED_WIDTH-1:0] needed;
@@ -553,8 +553,8 @@ module dtof_subsystem #(
   );
 
   // The array. Its clock is stopped between frames, and while a line is late inside an acquisition. During and after a reset the clock
-  // runs until the registers without a reset have left the array's pipelines. Outputs of the array have no effect in a clock whose end
-  // the gate removes: they are still there in the next clock. If the gate does not work, the array's a_contiguous_acquisition fails.
+  // runs until the pipelines hold no data from before. While the gate suppresses a clock edge, the array's outputs have no effect: they
+  // are still there in the next clock. If the gate does not work, the array's assertion a_contiguous_acquisition fails.
 
   logic array_clk, array_busy, array_done, array_counter_full;
   logic [7:0] settling_q;
@@ -586,7 +586,7 @@ module dtof_subsystem #(
 
   generate
     if (POOL != 0) begin : g_pool
-      assign array_counter_full = 1'b0;  // its coarse bins make room
+      assign array_counter_full = 1'b0;  // no event: sweeps make room in its coarse bins
       dtof_pool_pointer_array #(
           // parameters of dtof_pool_pointer_array: written by scripts/generate.py from readouts.toml
           .NP(NP),
@@ -685,12 +685,12 @@ module dtof_subsystem #(
     end
   endgenerate
 
-  // The registers tell of errors: line buffer and frame control see them before they could reach the array.
+  // The array cannot report an error: line buffer and frame control detect errors before and report them in the registers.
   `DTOF_ASSERT(a_no_array_error, array_error == '0 || array_waits, "the array met a master's error that should have been kept from it")
 
   `DTOF_ASSERT(a_begin_when_idle, !(begin_frame && array_busy), "a frame begins while another is under way")
 
-  // Results out: a word a target.
+  // Results: one word per target.
 
   logic target_tvalid, target_tready, target_second, target_tlast;
   logic [TARGET_WIDTH-1:0] target_tdata;
@@ -751,8 +751,8 @@ module dtof_subsystem #(
     end
   endgenerate
 
-  // Words wait for the sink at one place, which keeps the stream's rules where a frame is cut off: here or, in raster order, in
-  // the raster buffer.
+  // Words are stored for a slow sink at one place only, which keeps the rules of the stream when a frame is cut off: in u_stream_output, or in
+  // raster order in u_raster_buffer.
   logic word_tvalid, word_tready, word_tuser, word_tlast, output_rst_n, output_cut, aborted_word;
   logic [M_TDATA_WIDTH-1:0] word_tdata;
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's second target as a result of its own, behind the first: what an array gives with SECOND_TARGET = 1, one or two
-// positions a result.
+// Splits an array's results with two targets (SECOND_TARGET = 1) into results with one target each.
 //
-// 1. The first result of a pixel is {column, row, first position, confidence}.
-// 2. While both_i is set the array waits a clock, and {column, row, second position, confidence} follows, marked second.
+// 1. A pixel's first result is {column, row, first position, confidence}.
+// 2. If both_i is set, {column, row, second position, confidence} follows in the next clock, with m_second_o; the array's result is
+//    accepted with this second result.
 //
-// Latency: none; a result in a clock, or in two.
+// Latency: none; one clock per result, or two with both_i.
 // Cost: a flip-flop and a multiplexer of POSITION_WIDTH bits.
 
 // verilator lint_off TIMESCALEMOD
@@ -18,13 +18,13 @@ module dtof_target_words #(
 ) (
     input  logic                                                    clk_i,
     input  logic                                                    rst_ni,
-    input  logic                                                    both_i,      // does not change during a frame
+    input  logic                                                    both_i,      // stable during a frame
     // from the array
     input  logic                                                    s_tvalid_i,
     output logic                                                    s_tready_o,
     input  logic [PLACE_WIDTH+2*POSITION_WIDTH+CONFIDENCE_WIDTH-1:0] s_tdata_i,  // {place, second, first, confidence}
-    input  logic                                                    s_tlast_i,   // the frame's last
-    // one target each
+    input  logic                                                    s_tlast_i,   // last result of the frame
+    // results with one target each
     output logic                                                    m_tvalid_o,
     input  logic                                                    m_tready_i,
     output logic [  PLACE_WIDTH+POSITION_WIDTH+CONFIDENCE_WIDTH-1:0] m_tdata_o,  // {place, position, confidence}

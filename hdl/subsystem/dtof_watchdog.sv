@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells when somebody waits for too long.
+// Reports a wait that takes too long.
 //
-// 1. limit_i clocks in a row with waits_i: expired_o, for one clock, is high in the clock behind the last of them.
-// 2. If the wait goes on, the count begins again. limit_i = 0: never.
+// 1. After limit_i successive clocks with waits_i, expired_o is high for one clock.
+// 2. If the wait continues, the count begins again. limit_i = 0 switches the watchdog off.
 //
+// Latency: expired_o is high in the clock after the last of the limit_i clocks.
 // Cost: a counter and a comparator of WIDTH bits.
 
 // verilator lint_off TIMESCALEMOD
@@ -19,7 +20,7 @@ module dtof_watchdog #(
     output logic             expired_o
 );
 
-  logic [WIDTH-1:0] count_q;  // clocks of the wait
+  logic [WIDTH-1:0] count_q;  // clocks of the present wait so far
   logic expired_q, reached;
 
   assign reached = waits_i && (limit_i != '0) && (count_q >= limit_i - 1'b1);

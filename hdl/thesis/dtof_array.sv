@@ -1,30 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Read-out of a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out.
+// Read-out of a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels; input TDC timestamps, output depth codes. Equations:
+// docs/reference/readouts.md.
 //
 // 1. start_i begins a frame: the number of acquisitions and the time gate are sampled, and the memories are cleared.
 // 2. Timestamps stream in, acquisition by acquisition, the same pixel of all columns in a clock. Every column counts
 //    them in its histogram, or moves its pointer.
-// 3. Where a read-out takes several passes, the histograms are scanned for their peaks and cleared after each but the
-//    last, and the peaks tell the columns what to look at in the next.
-// 4. Behind the last pass the pixels are scanned row by row for their results, which leave through a chain of one
-//    register a column, column 0 first, while the next row is scanned.
+// 3. If a read-out takes several passes, the histograms are scanned for their peaks and cleared after each pass but the
+//    last. The peaks select the timestamps of the next pass.
+// 4. After the last pass the pixels are scanned row by row for their results. The results of a row leave through a chain of
+//    one register per column, column 0 first, while the next row is scanned.
 //
-// Everything that is common to the columns (state, counters, clear and scan addresses, result handshake) is here once;
-// a column holds its SRAMs and its arithmetic. READOUT picks the column (dtof_columns.svh); what a read-out needs of the
-// control, how many passes and bins and whether there is a word a pixel, comes from dtof_readouts.svh. Both are written
-// from readouts.toml.
+// Logic that all columns share (state, counters, clear and scan addresses, result handshake) exists once, in this module;
+// a column has its SRAMs and its arithmetic. READOUT selects the column (dtof_columns.svh). The numbers of passes and bins of
+// a read-out, and whether it has a word per pixel, come from dtof_readouts.svh. Both files are written from readouts.toml.
 //
-// Frame: start_i samples acq_num_i (0 and 1 are legal) and the gate; busy_o until done_o (docs/user/integration.md).
-// TDC stream: an acquisition starts in the clock in which tdc_valid_i and tdc_ready_o are high, which carries
-//   pixel 0, slot 0 of every column; the other PIXELS_PER_SRAM * SLOTS - 1 timestamps follow on consecutive
-//   clocks, valid and ready held high. Between acquisitions the source may pause. All ones: no detection.
-// Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; rows in order, columns in a row.
-// Raw frame (RAW_HISTOGRAM = 1, raw_i with start_i): instead of the results, the histograms that the read-out holds at the
-//   frame's end, of the rows from raw_first_row_i to raw_last_row_i: row by row, bin by bin, column by column. code is
-//   the bin's lowest, limited to 0 .. 2^NP - 1, fraction 0, and confidence the count.
-// Borders: every signal between the shared logic and the columns goes from a register to a register (dtof_broadcast.sv); what
-//   comes back are the heads of the result chain and of the chain of full counters. Timestamps go from the port, which
-//   stands for the TDC's register, to those of their column (dtof_timestamp_input.sv).
+// Frame: start_i samples acq_num_i (0 and 1 are legal) and the gate; busy_o stays high up to the clock of done_o
+//   (docs/user/integration.md).
+// TDC stream: an acquisition starts in the clock in which tdc_valid_i and tdc_ready_o are high; this clock has pixel 0, slot 0
+//   of every column. The other PIXELS_PER_SRAM * SLOTS - 1 timestamps follow in consecutive clocks with valid and ready
+//   high. Between acquisitions the source may pause. All ones: no detection.
+// Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; row by row, column by column in a row.
+// Raw frame (RAW_HISTOGRAM = 1, raw_i with start_i): the array sends histograms instead of results: those that it holds at the
+//   frame's end, of rows raw_first_row_i to raw_last_row_i, row by row, bin by bin, column by column. code is the lowest code of
+//   the bin, limited to 0 .. 2^NP - 1, fraction is 0, confidence is the count.
+// Borders: every signal between the shared logic and the columns runs from a register to a register (dtof_broadcast.sv). The
+//   heads of the result chain and of the chain of full counters come back. Timestamps run from the port, which counts as the
+//   TDC's register, to the registers of their column (dtof_timestamp_input.sv).
+// Schedule: clocks T0 to T5 of a timestamp (dtof_pixel_sequencer) and S0 to S3 of a scanned address (dtof_scan_sequencer).
+// Latency: the first result leaves after the frame's last acquisition and the scan of the first row.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
 // larger of SRAM_NUM + BROADCAST_STAGES + 2 and the addresses to scan in M4.
 // Cost at the defaults: see reports/area.md.
@@ -38,19 +41,19 @@ module dtof_array #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,  // dtof_pkg::READOUT_*
     parameter int NP = 10,               // bits of a timestamp, 3 to 16
     parameter int NB = 5,                // bits of the coarse index, 1 to NP
-    parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
+    parameter int PIXELS_PER_SRAM = 160,  // pixels of a column
     parameter int SRAM_NUM = 200,        // columns
     parameter int SLOTS = 2,             // timestamps per pixel and acquisition, 1 to 16
     parameter int COUNT_WIDTH = 10,      // bits of a histogram bin, 1 to 16
-    parameter int POINTER_STEP = 1,      // bins a pointer moves, 1 to 2^(NP-1) - 1
+    parameter int POINTER_STEP = 1,      // bins that a pointer moves, 1 to 2^(NP-1) - 1
     parameter int FRACTION_BITS = 0,     // fractional bits of a pointer, 0 to 8, with NP at most 16
     parameter int CONFIDENCE_WIDTH = 4,  // bits of a pointer's confidence, 0 for none, at most 8
     parameter int GUARD = 46,            // hisPointer v2: ceil(FWHM / T_res), at most 2^NP
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int POINTER_PORTS = 2,     // ports of the pointer SRAM; 1 needs SLOTS >= 2
-    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
+    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
-    parameter int RAW_HISTOGRAM = 0,     // 1: raw_i is there; a confidence has at least COUNT_WIDTH bits
+    parameter int RAW_HISTOGRAM = 0,     // 1: raw_i has an effect; a confidence has at least COUNT_WIDTH bits
     parameter int ACQ_WIDTH = 16,        // bits of the run-time number of acquisitions
     parameter int BROADCAST_STAGES = 2,  // registers between the shared logic and the columns, 1 to 8
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
@@ -61,31 +64,31 @@ module dtof_array #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    // side band of the SRAM macros, which the technology folder gives a meaning; all get the same
+    // side band of the SRAM macros, the same for all; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,  // AND of the cfg_o of all SRAM macros
     // frame
-    input  logic                   start_i,          // ignored while busy_o, also in the clock of done_o
+    input  logic                   start_i,          // ignored while busy_o is high, also in the clock of done_o
     input  logic [  ACQ_WIDTH-1:0] acq_num_i,        // acquisitions of the frame, sampled with start_i
     input  logic [         NP-1:0] gate_begin_i,     // time gate of the frame, sampled with start_i
     input  logic [         NP-1:0] gate_end_i,
-    input  logic                   raw_i,            // a raw frame; this and its rows are sampled with start_i
+    input  logic                   raw_i,            // 1: a raw frame; raw_i and its rows are sampled with start_i
     input  logic [  ROW_WIDTH-1:0] raw_first_row_i,
-    input  logic [  ROW_WIDTH-1:0] raw_last_row_i,   // from the first one to PIXELS_PER_SRAM - 1
-    output logic                   busy_o,           // from the clock behind start_i to that of done_o
-    output logic                   done_o,           // the last result was taken; one clock
+    input  logic [  ROW_WIDTH-1:0] raw_last_row_i,   // raw_first_row_i to PIXELS_PER_SRAM - 1
+    output logic                   busy_o,           // from the clock after start_i to the clock of done_o
+    output logic                   done_o,           // for one clock, after the last result was taken
     output logic [            2:0] state_o,          // dtof_pkg::STATE_*
     output logic [dtof_pkg::ERROR_WIDTH-1:0] error_o,  // dtof_pkg::ERROR_*, one clock per error (dtof_array_errors)
-    output logic                   counter_full_o,   // a histogram's first counter got full; within busy_o
+    output logic                   counter_full_o,   // the first counter of a histogram is full; only while busy_o is high
     // TDC stream
     input  logic                   tdc_valid_i,      // high for a whole acquisition
-    output logic                   tdc_ready_o,      // an acquisition may start, or is under way
+    output logic                   tdc_ready_o,      // an acquisition may start, or is in progress
     input  logic [SRAM_NUM*NP-1:0] tdc_timestamp_i,  // column 0 in the lowest bits
     // results, AXI4-Stream
     output logic                   result_tvalid_o,
     input  logic                   result_tready_i,
     output logic [TDATA_WIDTH-1:0] result_tdata_o,
-    output logic                   result_tlast_o    // the last column of a row
+    output logic                   result_tlast_o    // last column of the last row
 );
 
   `DTOF_REQUIRE(g_illegal_readout, dtof_pkg::is_readout(READOUT), `DTOF_READOUT_RANGE)
@@ -114,9 +117,9 @@ module dtof_array #(
                 "dtof_array: BROADCAST_STAGES must be 1 to 8")
 
   localparam int HISTOGRAM = dtof_pkg::has_histogram(READOUT) ? 1 : 0;
-  localparam int WORD = dtof_pkg::has_word(READOUT) ? 1 : 0;  // a word a pixel beside the histogram
-  localparam int WORD_MOVED = dtof_pkg::is_word_moved(READOUT) ? 1 : 0;  // timestamps change it
-  localparam int WORD_AHEAD = dtof_pkg::is_word_read_ahead(READOUT) ? 1 : 0;  // timestamps need it
+  localparam int WORD = dtof_pkg::has_word(READOUT) ? 1 : 0;  // a word per pixel beside the histogram
+  localparam int WORD_MOVED = dtof_pkg::is_word_moved(READOUT) ? 1 : 0;  // timestamps change the word
+  localparam int WORD_AHEAD = dtof_pkg::is_word_read_ahead(READOUT) ? 1 : 0;  // timestamps need the word
   localparam int THREE_STEPS = (READOUT == dtof_pkg::READOUT_THREESTEPS) ? 1 : 0;
   localparam int COARSE_PASSES = dtof_pkg::coarse_passes(READOUT, NP, NB);
   localparam int PASS_WIDTH = dtof_pkg::index_width(COARSE_PASSES + 1);
@@ -124,8 +127,8 @@ module dtof_array #(
   localparam int BINS = 1 << BIN_WIDTH;
   localparam int FINAL_ADDRESSES = dtof_pkg::final_addresses(READOUT, NP, NB, FRACTION_BITS);
   localparam int SCAN_WIDTH = dtof_pkg::scan_address_width(READOUT, NP, NB, FRACTION_BITS);
-  // The histogram that a raw frame shows: of the final pass, or, where timestamps move a word there, of the first one,
-  // which then is neither cleared in M1 nor in M2.
+  // A raw frame shows the histogram of the final pass. If timestamps move a word in the final pass, it shows the histogram of the
+  // first pass instead, which M1 and M2 then do not clear.
   localparam int RAW_OF_FIRST_PASS = (RAW_HISTOGRAM != 0) ? WORD_MOVED : 0;
   localparam int RAW_BINS = (RAW_HISTOGRAM != 0) ? dtof_pkg::raw_bins(READOUT, NP, NB) : 0;
   localparam int GEARS = (WORD_MOVED != 0) ? dtof_pkg::fraction_width(READOUT, FRACTION_BITS) : 0;
@@ -286,7 +289,7 @@ module dtof_array #(
   logic [ROW_WIDTH-1:0] pixel_s0, pixel_s1, pixel_s3;
   logic [SCAN_WIDTH-1:0] bin_s0, bin_s1, bin_s2;
   logic unused_bin_s1;
-  assign unused_bin_s1 = ^bin_s1;  // no bit is used past the bins
+  assign unused_bin_s1 = ^bin_s1;  // the high bits are not used beyond the bins
 
   dtof_scan_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
@@ -322,7 +325,7 @@ module dtof_array #(
       .pixel_s3_o   (pixel_s3)
   );
 
-  // What the columns do with their memories, the same for all of them.
+  // Memory accesses of the columns, the same for all columns.
 
   logic result_load;
   logic [ROW_WIDTH-1:0] histogram_read_pixel, histogram_write_pixel;
@@ -334,7 +337,7 @@ module dtof_array #(
   assign histogram_write_pixel = clear_s1 ? pixel_s1 : pixel_t5;
   assign result_load = last_s3 && final_scan;
 
-  // A pixel's word: read ahead of its timestamps and for its scan, in the passes in which it is known.
+  // A pixel's word is read before its timestamps and for its scan, in the passes that have words.
   logic word_known, word_read_ahead, word_read_scan;
   assign word_known = (COARSE_PASSES <= 1) ? final_pass : !first_pass;
   assign word_read_ahead = (WORD_AHEAD != 0) && fetch;
@@ -342,7 +345,7 @@ module dtof_array #(
   assign word_read = (WORD != 0) && word_known && (word_read_ahead || word_read_scan);
   assign word_read_pixel = ((WORD_AHEAD == 0) || scan_s0) ? pixel_s0 : fetch_pixel;
 
-  // It is set before the timestamps that it serves, and written behind those that move it.
+  // The word is set before the timestamps that need it, and written after the timestamps that change it.
   assign word_set = (WORD != 0) && ((COARSE_PASSES == 0) ? clear_s1 : last_s3 && coarse_scan);
   assign word_set_pixel = (COARSE_PASSES == 0) ? pixel_s1 : pixel_s3;
   assign word_write = (WORD_MOVED != 0) && last_slot_t2 && final_pass;
@@ -378,22 +381,22 @@ module dtof_array #(
       .result_shift_i  (result_shift)
   );
 
-  // Columns and their result chain: chain[c] is column c's result, column SRAM_NUM - 1 shifts zeros in.
+  // Columns and their result chain: chain[c] is the result of column c; column SRAM_NUM - 1 shifts zeros in.
 
   logic [(SRAM_NUM+1)*RESULT_WIDTH-1:0] chain;
   assign chain[SRAM_NUM*RESULT_WIDTH+:RESULT_WIDTH] = '0;
 
-  // Full counters go the same way, a column a clock, while timestamps stream in. The last one arrives before the results of
-  // the first row have left.
+  // Events of full counters move in the same direction, one column per clock, while timestamps stream in. The last event arrives before
+  // the results of the first row have left.
   logic [SRAM_NUM:0] full_chain;
   assign full_chain[SRAM_NUM] = 1'b0;
 
-  // The commands on their way to the columns. A command that the read-out has no use for is zero: synthesis keeps the columns
-  // as modules, and with their ports the logic that drives the ports.
+  // Commands to the columns. A command that the read-out does not use is zero: synthesis keeps the columns as modules with all ports,
+  // and would otherwise keep the logic that drives the unused ports.
 
   localparam int COMMAND_WIDTH = 2 * NP + PASS_WIDTH + STEP_WIDTH + 5 * ROW_WIDTH + 2 * BIN_WIDTH + SCAN_WIDTH + 21;
 
-  // The commands of a clock, with the names of the columns' ports.
+  // All commands of a clock, with the names of the columns' ports.
   typedef struct packed {
     logic [NP-1:0] gate_begin;
     logic [NP-1:0] gate_end;
@@ -472,7 +475,7 @@ module dtof_array #(
       .to_o  (received)
   );
 
-  // Column c, of whatever read-out: all have the same ports. (Signals alone are connected: Yosys 0.23 stops at an
+  // Column c of any read-out: all columns have the same ports. (Only signals are connected, because Yosys 0.23 stops at an
   // expression that takes its width from a port of a module with included ports.)
 `define DTOF_COLUMN(MODULE) \
   MODULE #( \
@@ -553,7 +556,7 @@ module dtof_array #(
   endgenerate
 `undef DTOF_COLUMN
 
-  // The way back from column 0.
+  // Register at the head of the result chain.
   logic [RESULT_WIDTH-1:0] head_q;
   always_ff @(posedge clk_i) begin
     head_q <= chain[RESULT_WIDTH-1:0];
@@ -563,7 +566,7 @@ module dtof_array #(
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
       .full_i       (1'b0),
-      .next_column_i(HISTOGRAM != 0 && full_chain[0]),  // without histograms synthesis leaves the register out
+      .next_column_i(HISTOGRAM != 0 && full_chain[0]),  // a constant without histograms, so that synthesis removes the register
       .full_o       (counter_full_o)
   );
 

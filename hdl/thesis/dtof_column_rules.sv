@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every column of dtof_array may rely on, as assertions on the signals that all columns share: alive in
-// simulation, proved in the array (proof dtof_array); synthesis leaves it out.
+// Rules for the signals that all columns of dtof_array share, as assertions: checked in simulation, proved in the array (proof
+// dtof_array); synthesis leaves it out.
 //
-// Timestamps and scans never meet in a column, so that they share its memories. A pixel's word is not set in the clock in
-// which one is written, nor, where timestamps do not move it and its SRAM has one port, in the clock in which one is read.
-// The result chain either loads or shifts.
-// Cost: none in silicon.
+// 1. Timestamps and scans are never in a column at the same time, so that they can share its memories.
+// 2. A pixel's word is not set in the clock in which a word is written. If timestamps do not change words and the SRAM has one port,
+//    a word is not set in the clock in which a word is read.
+// 3. The result chain does not load and shift in the same clock.
+// Latency: none. Cost: none in silicon.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -13,7 +14,7 @@
 
 module dtof_column_rules #(
     parameter int COARSE_PASSES = 1,
-    parameter int WORD_MOVED = 0  // 1: timestamps change a pixel's word, which its own SRAM's ports are made for
+    parameter int WORD_MOVED = 0  // 1: timestamps change a pixel's word, in an SRAM with the ports for this
 ) (
     input logic clk_i,
     input logic rst_ni,

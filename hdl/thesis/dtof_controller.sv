@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state machine of a frame (thesis Fig. 4.3 and 4.8) for any number of coarse passes, once per array.
+// State machine of a frame (thesis Fig. 4.3 and 4.8) for any number of coarse passes, once per array.
 //
 // IDLE -> RESET -> (M0 -> M1 -> M2) x COARSE_PASSES -> M3 -> (M4 -> M5) x PIXELS_PER_SRAM -> IDLE
 //
 // The scan of a pixel begins with M5 of the pixel before, and ends in its M4.
-// start_i is taken in IDLE only; start_i while busy does nothing. done_o is high for the frame's last clock.
+// start_i is taken in IDLE only; start_i while busy is ignored. done_o is high in the frame's last clock.
 // Both are registered, so that no port drives the state's logic.
+// Latency: busy_o rises one clock after start_i, RESET begins two clocks after start_i.
 // Cost: 3 state bits, a pass counter and the run-time acquisition number, per array.
 `include "dtof_macros.svh"
 
@@ -19,7 +20,7 @@ module dtof_controller `DTOF_TYPES_OF(dtof_pkg) #(
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
-    input  logic                  start_i,         // ignored while busy_o, also in the clock of done_o
+    input  logic                  start_i,         // ignored while busy_o is high, also in the clock of done_o
     input  logic [ ACQ_WIDTH-1:0] acq_num_i,
     output logic                  busy_o,
     output logic                  done_o,
@@ -126,7 +127,7 @@ module dtof_controller `DTOF_TYPES_OF(dtof_pkg) #(
       done_q <= 1'b0;
     end else begin
       state_q <= state_d;
-      // Registered beside the state: whether a timestamp is taken depends on it.
+      // A registered copy of the state, because tdc_ready_o depends on it.
       stream_q <= (state_d == dtof_pkg::STATE_M0) || (state_d == dtof_pkg::STATE_M3);
       start_q <= accept;
       done_q <= (state_q == dtof_pkg::STATE_M5) && (state_d == dtof_pkg::STATE_IDLE);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides which timestamps a histogram counts, and in which bin (thesis Fig. 4.7, "data filter").
-// Combinational.
+// Selects the timestamps that a histogram counts, and their bins (thesis Fig. 4.7, "data filter"). Combinational.
 //
-// Coarse pass (all but three steps and PiFH): bin = x >> (NP-NB).
-// SiFH, final (Eq. 2.4 to 2.7): start = (P << (NP-NB)) - 2^(NB-1) + 1 (+ 2^(NP-NB-1) - 1 if WINDOW_CENTRED), signed;
-//   kept if 0 <= x - start < 2^NB, bin = x - start.
-// FiFH, final: kept if x >> (NP-NB) = P, bin = the low NP-NB bits.
-// Three steps: pass k keeps the peaks so far as prefix, bin = the next three bits; final: 16 codes from
-//   start = (Q << s) + (2^s >> 1) - 8, s = the undecided low bits.
-// PiFH: kept if x >> NB = run, bin = the low NB bits. Histogram: bin = x.
-// Cost: one subtractor or comparator.
+// Equations, with the timestamp x and the coarse peak P of its pixel:
+// Coarse pass (all read-outs but three steps and PiFH): bin = x >> (NP-NB).
+// SiFH, final pass (Eq. 2.4 to 2.7): start = (P << (NP-NB)) - 2^(NB-1) + 1 (+ 2^(NP-NB-1) - 1 if WINDOW_CENTRED), signed;
+//   x is kept if 0 <= x - start < 2^NB, bin = x - start.
+// FiFH, final pass: x is kept if x >> (NP-NB) = P, bin = the low NP-NB bits.
+// Three steps: a coarse pass keeps x if its high bits are the peaks so far, bin = the next three bits. The final pass keeps 16
+//   codes from start = (P << s) + (2^s >> 1) - 8, s = the number of undecided low bits.
+// PiFH: x is kept if x >> NB = pass, bin = the low NB bits. Histogram: bin = x.
+// Latency: none. Cost: one subtractor or comparator.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

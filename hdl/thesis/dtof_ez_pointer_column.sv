@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// ezPointer (thesis 3.3.2, 4.3): one pointer a pixel, which every timestamp moves one step towards itself.
+// ezPointer (thesis 3.3.2, 4.3): one pointer per pixel; every timestamp moves it one step towards itself.
 //
+// Equation: dtof_pointer_update.
 // 1. RESET sets every pixel's pointer to the middle of the range.
 // 2. Each timestamp of the frame, gated at T0, moves its pixel's pointer at T1; dtof_pointer_builder has the SRAM.
-// 3. In M4 the pointer is read, and is the result with its confidence at S3. There is no histogram, and no coarse pass.
+// 3. M4 reads the pointer; pointer and confidence are the result at S3. There is no histogram, and no coarse pass.
 //
-//   clock     what happens
+//   clock     work
 //   T0        timestamp registered, gated
 //   T1        pointer moved
-//   T2        written, behind a pixel's last slot
+//   T2        written, after a pixel's last slot
 //   S3 of M4  result loaded
 //
+// Latency: 1 clock from a timestamp at T1 to the moved pointer.
 // Cost at the defaults: about 50 flip-flops and PIXELS_PER_SRAM x 14 bits (10 without confidence).
 
 // verilator lint_off TIMESCALEMOD
@@ -19,10 +21,10 @@
 module dtof_ez_pointer_column #(
     // parameters of a column: written by scripts/generate.py from scripts/templates/column_parameters.svh
     // verilator lint_off UNUSEDPARAM
-    parameter int READOUT = dtof_pkg::READOUT_SIFH,  // which one of those that share the column
+    parameter int READOUT = dtof_pkg::READOUT_SIFH,  // read-out, of those that this column implements
     parameter int NP = 10,               // bits of a timestamp
     parameter int NB = 5,                // bits of the coarse index
-    parameter int PIXELS_PER_SRAM = 160,  // pixels that the column serves
+    parameter int PIXELS_PER_SRAM = 160,  // pixels of the column
     parameter int SLOTS = 2,             // timestamps per pixel and acquisition
     parameter int COUNT_WIDTH = 10,      // bits of a histogram bin
     parameter int POINTER_STEP = 1,      // bins that a pointer moves
@@ -30,13 +32,13 @@ module dtof_ez_pointer_column #(
     parameter int CONFIDENCE_WIDTH = 4,  // bits of a pointer's confidence, 0 for none
     parameter int GUARD = 46,            // hisPointer v2: window beyond half a coarse bin
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
-    parameter int POINTER_PORTS = 2,     // ports of an SRAM whose words timestamps move
-    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
+    parameter int POINTER_PORTS = 2,     // ports of an SRAM whose words timestamps change
+    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
-    parameter int RAW_HISTOGRAM = 0,     // 1: a scan of M4 may be one bin's, whose code and count are the result
-    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
+    parameter int RAW_HISTOGRAM = 0,     // 1: M4 may scan single bins, whose code and count are the result
+    parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the column; timestamps are delayed as much
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),  // log2 of the bins of a pixel
+    localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),  // log2 of a pixel's bins
     localparam int SCAN_WIDTH = dtof_pkg::scan_address_width(READOUT, NP, NB, FRACTION_BITS),
     localparam int PASS_WIDTH = dtof_pkg::index_width(dtof_pkg::coarse_passes(READOUT, NP, NB) + 1),
     localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, dtof_pkg::fraction_width(READOUT, FRACTION_BITS)),
@@ -48,55 +50,55 @@ module dtof_ez_pointer_column #(
     // ports of a column: written by scripts/generate.py from scripts/templates/column_ports.svh
     // verilator lint_off UNUSEDSIGNAL
     input  logic                    clk_i,
-    input  logic                    rst_ni,                   // of assertions and the chain of full counters alone
-    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic                    rst_ni,                   // for assertions and the chain of full counters only
+    // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // timestamp
-    input  logic [          NP-1:0] timestamp_i,              // BROADCAST_STAGES before T0; all ones: no detection
+    input  logic [          NP-1:0] timestamp_i,              // BROADCAST_STAGES clocks before T0; all ones: no detection
     input  logic [          NP-1:0] gate_begin_i,             // time gate, the same for a whole frame
     input  logic [          NP-1:0] gate_end_i,
-    // pass over the stream; it changes only while no timestamp is in the pipeline
-    input  logic [  PASS_WIDTH-1:0] pass_i,                   // 0, 1, ...
+    // pass over the stream, which changes only while no timestamp is in the pipeline
+    input  logic [  PASS_WIDTH-1:0] pass_i,                   // number of the pass: 0, 1, ...
     input  logic                    first_pass_i,
-    input  logic                    final_pass_i,             // its scan gives the result; low in M4 of a raw frame of counts
-                                                              // that are older than this pass
-    // where the timestamps are
-    input  logic                    beat_t1_i,                // the timestamp of T0 belongs to an acquisition
+    input  logic                    final_pass_i,             // the scan of this pass gives the result; low in M4 of a raw frame
+                                                              // that shows the counts of an earlier pass
+    // stages of the timestamps
+    input  logic                    beat_t1_i,                // the timestamp at T1 belongs to an acquisition
     input  logic [             3:1] same_pixel_t3_i,          // [d]: the timestamp d clocks ahead is of the same pixel
     input  logic                    beat_t5_i,                // a timestamp is at T5
     // histogram: read at T2 or S0, written at T5 or cleared at S1
-    input  logic                    scan_s0_i,                // read for the scan
+    input  logic                    scan_s0_i,                // read for a scan
     input  logic [   BIN_WIDTH-1:0] scan_bin_s0_i,
     input  logic [   ROW_WIDTH-1:0] histogram_read_pixel_i,   // pixel of T2, or of S0 with scan_s0_i
-    input  logic                    clear_s1_i,               // clear what was read
+    input  logic                    clear_s1_i,               // clear the address that was read
     input  logic [   BIN_WIDTH-1:0] clear_bin_s1_i,
     input  logic [   ROW_WIDTH-1:0] histogram_write_pixel_i,  // pixel of T5, or of S1 with clear_s1_i
-    input  logic                    clear_all_i,              // before a histogram is built anew: nothing is frozen; signalled
-                                                              // clear of the whole memory
-    input  logic                    scan_s2_i,                // the count of bin_s2_i is known
-    input  logic                    first_s2_i,               // ... and is the first of its pixel
-    input  logic [  SCAN_WIDTH-1:0] bin_s2_i,                 // past the last bin: a clock of what follows the scan
+    input  logic                    clear_all_i,              // before a new histogram: clears all frozen flags and, with
+                                                              // SIGNALLED_CLEAR = 1, all status bits
+    input  logic                    scan_s2_i,                // the count of bin_s2_i is available
+    input  logic                    first_s2_i,               // with scan_s2_i: first bin of its pixel
+    input  logic [  SCAN_WIDTH-1:0] bin_s2_i,                 // beyond the last bin: a clock of the computation after the scan
     // word of a pixel: read, changed by timestamps, written; or set
-    input  logic                    word_read_i,              // ahead of the pixel's timestamps, or for its scan
+    input  logic                    word_read_i,              // read before the pixel's timestamps, or for its scan
     input  logic [   ROW_WIDTH-1:0] word_read_pixel_i,
     input  logic                    word_read_done_i,         // word_read_i one clock later
     input  logic                    first_slot_t0_i,          // first slot of a pixel, also between acquisitions
     input  logic                    visit_t1_i,               // the timestamp at T1 is the first of its pixel's visit
-    input  logic                    first_acq_t1_i,           // ... and in the first acquisition of the pass
-    input  logic                    word_write_i,             // the word behind them: last slot of a pixel at T2
+    input  logic                    first_acq_t1_i,           // this visit is in the first acquisition of the pass
+    input  logic                    word_write_i,             // write after the pixel's timestamps: last slot at T2
     input  logic [   ROW_WIDTH-1:0] word_write_pixel_i,
-    input  logic [  STEP_WIDTH-1:0] step_t0_i,                // step of a pointer in units of its last fractional bit
-    input  logic                    word_set_i,               // the word before the timestamps: in RESET, or S3 of M1
+    input  logic [  STEP_WIDTH-1:0] step_t0_i,                // step of a pointer, in units of its lowest bit
+    input  logic                    word_set_i,               // set before the timestamps: in RESET, or at S3 of M1
     input  logic [   ROW_WIDTH-1:0] word_set_pixel_i,
     // result chain
-    input  logic                    result_load_i,            // S3 of M4: the result of the pixel is known
-    input  logic                    result_shift_i,           // take the next column's, never while loading
+    input  logic                    result_load_i,            // S3 of M4: load the pixel's result
+    input  logic                    result_shift_i,           // load the next column's result; never with result_load_i
     input  logic [RESULT_WIDTH-1:0] next_column_i,
     output logic [RESULT_WIDTH-1:0] result_o,                 // {code, fraction, confidence}
-    // chain of full counters, of read-outs with a histogram
+    // chain of full counters, in read-outs with a histogram
     input  logic                    next_counter_full_i,
-    output logic                    counter_full_o            // a counter of this column, or of one behind it, got full
+    output logic                    counter_full_o            // a counter of this column or of the chain before is full
     // verilator lint_on UNUSEDSIGNAL
     // end of ports of a column
 );
@@ -111,7 +113,7 @@ module dtof_ez_pointer_column #(
   logic [CONFIDENCE_BITS-1:0] confidence;
   logic unused_tag, unused_next_counter_full;
 
-  // No counters.
+  // This read-out has no counters.
   assign unused_next_counter_full = next_counter_full_i;
   assign counter_full_o = 1'b0;
 

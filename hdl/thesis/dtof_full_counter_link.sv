@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// One link of the chain of full counters: an event of this column, or of a column behind it, moves one column on in a clock.
-// Nothing stops the chain. Two events that meet in a link become one event.
-// Latency: 1 clock a column. Cost: a flip-flop with reset and an OR gate.
+// One link of the chain of full counters: an event of this column, or of the column before in the chain, moves on by one column per
+// clock. Nothing stops the chain. Two events that meet in a link become one event.
+// Latency: 1 clock per column. Cost: a flip-flop with reset and an OR gate.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module dtof_full_counter_link (
     input  logic clk_i,
-    input  logic rst_ni,         // an event that never happened must not leave the array behind power-up
-    input  logic full_i,         // a counter of this column gets full
+    input  logic rst_ni,         // for the chain: without a reset the array could report an event after power-up that never happened
+    input  logic full_i,         // a counter of this column is full now
     input  logic next_column_i,  // the next column's link
     output logic full_o
 );

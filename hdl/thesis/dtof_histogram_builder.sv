@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The histograms of a column in one two-port SRAM, which counts one timestamp a clock (thesis 4.4, Fig. 4.9 to 4.11).
+// The histograms of a column in one two-port SRAM; counts one timestamp per clock (thesis 4.4, Fig. 4.9 to 4.11).
 //
-// 1. Counting. A timestamp's address {pixel, bin} is read, one is added, and the count is written back. That takes five
-//    clocks, and a new timestamp starts in every one of them.
-// 2. Timestamps up to three clocks apart may meet in one address before it is written. Then the pending count is
-//    forwarded at T4 instead of what the SRAM returned. Only distances at which two timestamps can be of one pixel have
-//    a comparator.
-// 3. Freezing. A bin at 2^COUNT_WIDTH - 1 is full. With FREEZE the write that fills the first bin of a pixel freezes the
+// 1. Counting. The count at a timestamp's address {pixel, bin} is read, incremented and written back. This takes five
+//    clocks, and a new timestamp may start in every clock.
+// 2. Forwarding. Timestamps up to three clocks apart may have the same address before the first count is written. In this case T4
+//    uses the pending count instead of the SRAM's data. There is a comparator only for distances at which two timestamps can be of
+//    one pixel.
+// 3. Freezing. A bin at 2^COUNT_WIDTH - 1 is full. With FREEZE = 1 the write that fills the first bin of a pixel freezes the
 //    pixel: the writes of all its later timestamps are dropped until clear_all_i, so that no other bin catches up with
-//    the full one, and no counter wraps. A flip-flop a pixel says so, which is read and set at T5. What was forwarded from
-//    a dropped write is dropped, too, for it is of the same pixel and later. Without FREEZE a full bin stays full, and the
-//    others count on.
-// 4. Scanning. The control reads the addresses one after the other; count_s2_o shows each count, and the address is
-//    cleared behind the read. With SIGNALLED_CLEAR a status bit an address says whether it was written since the last
-//    clear_all_i, and nothing is cleared by writing.
+//    the full bin, and no counter wraps. A flip-flop per pixel stores this; it is read and set at T5. A count that was forwarded from
+//    a dropped write is dropped, too, because it is of the same pixel and later. With FREEZE = 0 a full bin stays full, and the
+//    other bins count on.
+// 4. Scanning. The control reads the addresses one after the other. count_s2_o has each count, and the address is cleared one
+//    clock after the read. With SIGNALLED_CLEAR = 1 a status bit per address says whether the address was written since the
+//    last clear_all_i, and no address is cleared by a write.
 //
 //   clock    counting                              scanning
 //   T1       bin and hit arrive
@@ -22,8 +22,9 @@
 //   T4 / S2  + 1                                   the count is at count_s2_o
 //   T5       SRAM write, unless frozen
 //
-// The registers need no reset: beat_t5_i masks every write. They rest where there is no hit and no scan.
-// Cost at the defaults: 47 flip-flops and with FREEZE one a pixel, an incrementer, one bin comparator; block RAM on an FPGA.
+// The registers need no reset, because beat_t5_i masks every write. Without a hit and without a scan they hold.
+// Latency: 4 clocks from hit_t1_i to the write, 2 clocks from scan_s0_i to count_s2_o.
+// Cost at the defaults: 47 flip-flops and with FREEZE one per pixel, an incrementer, one bin comparator; block RAM on an FPGA.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -31,22 +32,22 @@
 
 module dtof_histogram_builder #(
     parameter int PIXELS_PER_SRAM = 160,  // histograms
-    parameter int BIN_WIDTH = 5,         // log2 of the bins of each
-    parameter int SLOTS = 2,             // timestamps of a pixel one after the other
+    parameter int BIN_WIDTH = 5,         // log2 of the bins of a histogram
+    parameter int SLOTS = 2,             // consecutive timestamps of a pixel
     parameter int COUNT_WIDTH = 10,      // bits of a count
-    parameter int FREEZE = 1,            // 1: a pixel's first full bin ends its counting; 0: counters saturate
-    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
+    parameter int FREEZE = 1,            // 1: a pixel's first full bin ends its counting; 0: full bins stay full
+    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
 ) (
     input  logic                   clk_i,
-    input  logic                   rst_ni,          // of the assertions alone
-    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic                   rst_ni,          // for assertions only
+    // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // timestamp at T1
-    input  logic                   hit_t1_i,        // it counts
+    input  logic                   hit_t1_i,        // the timestamp counts
     input  logic [  BIN_WIDTH-1:0] bin_t1_i,
-    // schedule, common to all columns; neither scan nor clear with a timestamp in the pipeline
+    // schedule, the same for all columns; no scan and no clear while a timestamp is in the pipeline
     input  logic [          3:1]   same_pixel_t3_i,  // [d]: the timestamp d clocks ahead is of the same pixel
     input  logic                   beat_t5_i,       // a timestamp is at T5
     input  logic                   scan_s0_i,       // read for the scan instead of T2
@@ -55,9 +56,9 @@ module dtof_histogram_builder #(
     input  logic                   clear_s1_i,      // clear instead of T5
     input  logic [  BIN_WIDTH-1:0] clear_bin_s1_i,
     input  logic [  ROW_WIDTH-1:0] write_pixel_i,   // pixel of T5 or S1
-    input  logic                   clear_all_i,     // of what is frozen, and signalled clear
-    output logic [COUNT_WIDTH-1:0] count_s2_o,      // of the address of S0
-    output logic                   full_t5_o        // a bin gets full, or with FREEZE = 0 was full already
+    input  logic                   clear_all_i,     // clears all frozen flags, and all status bits with SIGNALLED_CLEAR = 1
+    output logic [COUNT_WIDTH-1:0] count_s2_o,      // count at the address of S0
+    output logic                   full_t5_o        // a bin becomes full now; with FREEZE = 0 also if it was full before
 );
 
   localparam int BINS = 1 << BIN_WIDTH;
@@ -149,7 +150,7 @@ module dtof_histogram_builder #(
 
   generate
     if (FREEZE != 0) begin : g_freeze
-      // The pixel of T5, one-hot: rows and columns of a square are smaller than a decoder of all pixels.
+      // One-hot decoder of the pixel at T5, in rows and columns of a square, which is smaller than a full decoder.
       localparam int LOW_WIDTH = dtof_pkg::min_of(ROW_WIDTH, 4);
       localparam int LOWS = 1 << LOW_WIDTH;
       localparam int HIGHS = (PIXELS_PER_SRAM + LOWS - 1) / LOWS;
@@ -165,18 +166,18 @@ module dtof_histogram_builder #(
         assign selected[h*LOWS+:LOWS] = {LOWS{high[h]}} & low;
       end
       assign unused_selected = ^selected;
-      // One enable for all flags, so that their clocks rest. The enable does not depend on `frozen`, which is late: where a write is
-      // dropped, the pixel is frozen already.
+      // All flags share one enable, so that their clock can be gated. The enable does not depend on `frozen`, which comes late: if a write
+      // is dropped, its pixel is frozen already.
       always_ff @(posedge clk_i) begin
         if (clear_all_i || fills_t5) begin
           frozen_q <= clear_all_i ? '0 : frozen_q | selected[PIXELS_PER_SRAM-1:0];
         end
       end
       assign frozen = |(frozen_q & selected[PIXELS_PER_SRAM-1:0]);
-      // A full bin's pixel is frozen: what its counter would wrap to is never written.
+      // A full bin's pixel is frozen, so a wrapped count is never written.
       assign incremented = operand + 1'b1;
     end else begin : g_saturate
-      // All ones plus one overflows to zero: the overflow bit puts the ones back, beside the adder.
+      // All ones plus one overflows to zero; the overflow bit then sets all bits again, beside the adder.
       logic [COUNT_WIDTH:0] plus_one;
       assign plus_one = {1'b0, operand} + 1'b1;
       assign frozen = 1'b0;
@@ -184,7 +185,7 @@ module dtof_histogram_builder #(
     end
   endgenerate
 
-  // A pending count is forwarded if pixel and bin are the same; decided at T3, one clock before the addition.
+  // A pending count is forwarded if pixel and bin are equal; decided at T3, one clock before the addition.
   generate
     if (FORWARD_DEPTH == 0) begin : g_no_forward
       logic unused_forward;
@@ -199,7 +200,7 @@ module dtof_histogram_builder #(
       end
       assign operand = forward_t4_q ? written_q : count_q;
     end else begin : g_forward
-      // Stages behind the write: T6 and T7.
+      // Stages after the write: T6 and T7.
       logic hit_t6_q;
       logic [BIN_WIDTH-1:0] bin_t6_q;
       logic [COUNT_WIDTH-1:0] written_t6_q, written_t7_q;

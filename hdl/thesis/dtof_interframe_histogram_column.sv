@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// SiFH, FiFH and three steps (thesis 2.2.3, 3.3.3, 3.3.4, 4.4): coarse histograms find where the pulse is, a fine one
-// of that place finds it exactly, in the same SRAM.
+// SiFH, FiFH and three steps (thesis 2.2.3, 3.3.3, 3.3.4, 4.4): coarse histograms find the region of the pulse, a fine histogram
+// of this region finds its position, in the same SRAM.
 //
-// 1. A coarse pass histograms the timestamps; M1 scans for the peak, which lengthens the pixel's coarse peak by its bits.
-// 2. The final pass histograms a window at the coarse peak, one code a bin.
-// 3. M4 scans for its peak; peak and begin of the window are the result.
+// 1. A coarse pass counts the timestamps; M1 scans for the peak, which extends the pixel's coarse peak by its bits.
+// 2. The final pass counts the timestamps of a window at the coarse peak, one bin per code.
+// 3. M4 scans for the peak; peak and start of the window give the result.
 //
-// What differs is the window of a pass (dtof_data_filter) and how a pass's peak lengthens the coarse peak, both by READOUT.
-// Coarse peaks are words of a small single-port SRAM: read one pixel ahead while building, at the last bin of a pixel
-// while scanning, and set in M1 at S3; reads and writes fall on different clocks because the number of bins is even.
+// READOUT selects the window of a pass (dtof_data_filter) and how a pass's peak extends the coarse peak.
+// Coarse peaks are words of a small single-port SRAM. They are read one pixel ahead during a pass, read at the last bin of a pixel
+// during a scan, and set in M1 at S3. Reads and writes fall on different clocks because the number of bins is even.
 //
-//   clock     what happens
+//   clock     work
 //   T0        timestamp and coarse peak registered
 //   T1        filter: bin and hit
 //   T2 to T5  histogram
-//   S3 of M1  the longer coarse peak is set
+//   S3 of M1  the extended coarse peak is set
 //   S3 of M4  result loaded
 //
+// Latency: 3 clocks from the read of a pixel's last bin to its result.
 // Cost at the defaults: about 130 flip-flops, a histogram SRAM and PIXELS_PER_SRAM x PEAK_WIDTH bits.
 
 // verilator lint_off TIMESCALEMOD
@@ -25,10 +26,10 @@
 module dtof_interframe_histogram_column #(
     // parameters of a column: written by scripts/generate.py from scripts/templates/column_parameters.svh
     // verilator lint_off UNUSEDPARAM
-    parameter int READOUT = dtof_pkg::READOUT_SIFH,  // which one of those that share the column
+    parameter int READOUT = dtof_pkg::READOUT_SIFH,  // read-out, of those that this column implements
     parameter int NP = 10,               // bits of a timestamp
     parameter int NB = 5,                // bits of the coarse index
-    parameter int PIXELS_PER_SRAM = 160,  // pixels that the column serves
+    parameter int PIXELS_PER_SRAM = 160,  // pixels of the column
     parameter int SLOTS = 2,             // timestamps per pixel and acquisition
     parameter int COUNT_WIDTH = 10,      // bits of a histogram bin
     parameter int POINTER_STEP = 1,      // bins that a pointer moves
@@ -36,13 +37,13 @@ module dtof_interframe_histogram_column #(
     parameter int CONFIDENCE_WIDTH = 4,  // bits of a pointer's confidence, 0 for none
     parameter int GUARD = 46,            // hisPointer v2: window beyond half a coarse bin
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
-    parameter int POINTER_PORTS = 2,     // ports of an SRAM whose words timestamps move
-    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
+    parameter int POINTER_PORTS = 2,     // ports of an SRAM whose words timestamps change
+    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
-    parameter int RAW_HISTOGRAM = 0,     // 1: a scan of M4 may be one bin's, whose code and count are the result
-    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
+    parameter int RAW_HISTOGRAM = 0,     // 1: M4 may scan single bins, whose code and count are the result
+    parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the column; timestamps are delayed as much
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),  // log2 of the bins of a pixel
+    localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),  // log2 of a pixel's bins
     localparam int SCAN_WIDTH = dtof_pkg::scan_address_width(READOUT, NP, NB, FRACTION_BITS),
     localparam int PASS_WIDTH = dtof_pkg::index_width(dtof_pkg::coarse_passes(READOUT, NP, NB) + 1),
     localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, dtof_pkg::fraction_width(READOUT, FRACTION_BITS)),
@@ -54,55 +55,55 @@ module dtof_interframe_histogram_column #(
     // ports of a column: written by scripts/generate.py from scripts/templates/column_ports.svh
     // verilator lint_off UNUSEDSIGNAL
     input  logic                    clk_i,
-    input  logic                    rst_ni,                   // of assertions and the chain of full counters alone
-    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic                    rst_ni,                   // for assertions and the chain of full counters only
+    // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // timestamp
-    input  logic [          NP-1:0] timestamp_i,              // BROADCAST_STAGES before T0; all ones: no detection
+    input  logic [          NP-1:0] timestamp_i,              // BROADCAST_STAGES clocks before T0; all ones: no detection
     input  logic [          NP-1:0] gate_begin_i,             // time gate, the same for a whole frame
     input  logic [          NP-1:0] gate_end_i,
-    // pass over the stream; it changes only while no timestamp is in the pipeline
-    input  logic [  PASS_WIDTH-1:0] pass_i,                   // 0, 1, ...
+    // pass over the stream, which changes only while no timestamp is in the pipeline
+    input  logic [  PASS_WIDTH-1:0] pass_i,                   // number of the pass: 0, 1, ...
     input  logic                    first_pass_i,
-    input  logic                    final_pass_i,             // its scan gives the result; low in M4 of a raw frame of counts
-                                                              // that are older than this pass
-    // where the timestamps are
-    input  logic                    beat_t1_i,                // the timestamp of T0 belongs to an acquisition
+    input  logic                    final_pass_i,             // the scan of this pass gives the result; low in M4 of a raw frame
+                                                              // that shows the counts of an earlier pass
+    // stages of the timestamps
+    input  logic                    beat_t1_i,                // the timestamp at T1 belongs to an acquisition
     input  logic [             3:1] same_pixel_t3_i,          // [d]: the timestamp d clocks ahead is of the same pixel
     input  logic                    beat_t5_i,                // a timestamp is at T5
     // histogram: read at T2 or S0, written at T5 or cleared at S1
-    input  logic                    scan_s0_i,                // read for the scan
+    input  logic                    scan_s0_i,                // read for a scan
     input  logic [   BIN_WIDTH-1:0] scan_bin_s0_i,
     input  logic [   ROW_WIDTH-1:0] histogram_read_pixel_i,   // pixel of T2, or of S0 with scan_s0_i
-    input  logic                    clear_s1_i,               // clear what was read
+    input  logic                    clear_s1_i,               // clear the address that was read
     input  logic [   BIN_WIDTH-1:0] clear_bin_s1_i,
     input  logic [   ROW_WIDTH-1:0] histogram_write_pixel_i,  // pixel of T5, or of S1 with clear_s1_i
-    input  logic                    clear_all_i,              // before a histogram is built anew: nothing is frozen; signalled
-                                                              // clear of the whole memory
-    input  logic                    scan_s2_i,                // the count of bin_s2_i is known
-    input  logic                    first_s2_i,               // ... and is the first of its pixel
-    input  logic [  SCAN_WIDTH-1:0] bin_s2_i,                 // past the last bin: a clock of what follows the scan
+    input  logic                    clear_all_i,              // before a new histogram: clears all frozen flags and, with
+                                                              // SIGNALLED_CLEAR = 1, all status bits
+    input  logic                    scan_s2_i,                // the count of bin_s2_i is available
+    input  logic                    first_s2_i,               // with scan_s2_i: first bin of its pixel
+    input  logic [  SCAN_WIDTH-1:0] bin_s2_i,                 // beyond the last bin: a clock of the computation after the scan
     // word of a pixel: read, changed by timestamps, written; or set
-    input  logic                    word_read_i,              // ahead of the pixel's timestamps, or for its scan
+    input  logic                    word_read_i,              // read before the pixel's timestamps, or for its scan
     input  logic [   ROW_WIDTH-1:0] word_read_pixel_i,
     input  logic                    word_read_done_i,         // word_read_i one clock later
     input  logic                    first_slot_t0_i,          // first slot of a pixel, also between acquisitions
     input  logic                    visit_t1_i,               // the timestamp at T1 is the first of its pixel's visit
-    input  logic                    first_acq_t1_i,           // ... and in the first acquisition of the pass
-    input  logic                    word_write_i,             // the word behind them: last slot of a pixel at T2
+    input  logic                    first_acq_t1_i,           // this visit is in the first acquisition of the pass
+    input  logic                    word_write_i,             // write after the pixel's timestamps: last slot at T2
     input  logic [   ROW_WIDTH-1:0] word_write_pixel_i,
-    input  logic [  STEP_WIDTH-1:0] step_t0_i,                // step of a pointer in units of its last fractional bit
-    input  logic                    word_set_i,               // the word before the timestamps: in RESET, or S3 of M1
+    input  logic [  STEP_WIDTH-1:0] step_t0_i,                // step of a pointer, in units of its lowest bit
+    input  logic                    word_set_i,               // set before the timestamps: in RESET, or at S3 of M1
     input  logic [   ROW_WIDTH-1:0] word_set_pixel_i,
     // result chain
-    input  logic                    result_load_i,            // S3 of M4: the result of the pixel is known
-    input  logic                    result_shift_i,           // take the next column's, never while loading
+    input  logic                    result_load_i,            // S3 of M4: load the pixel's result
+    input  logic                    result_shift_i,           // load the next column's result; never with result_load_i
     input  logic [RESULT_WIDTH-1:0] next_column_i,
     output logic [RESULT_WIDTH-1:0] result_o,                 // {code, fraction, confidence}
-    // chain of full counters, of read-outs with a histogram
+    // chain of full counters, in read-outs with a histogram
     input  logic                    next_counter_full_i,
-    output logic                    counter_full_o            // a counter of this column, or of one behind it, got full
+    output logic                    counter_full_o            // a counter of this column or of the chain before is full
     // verilator lint_on UNUSEDSIGNAL
     // end of ports of a column
 );
@@ -212,9 +213,9 @@ module dtof_interframe_histogram_column #(
     end
   endgenerate
 
-  // A window may begin below code 0, where an empty fine histogram has its peak. No window's peak lies beyond the
-  // last code: only codes that were measured are counted, and an empty window's first code is in the range. A bin of a
-  // raw frame may; it gets the code of no detection.
+  // A window may begin below code 0; an empty fine histogram has its peak there. The peak of a window never lies beyond the
+  // last code: only codes that were measured are counted, and the first code of an empty window is in the range. A bin of a
+  // raw frame may lie beyond the last code; it gets the code of no detection.
   logic unused_peak_code;
   assign peak_code = start + $signed((NP + 2)'(scan_peak));
   assign code = peak_code[NP+1] ? '0

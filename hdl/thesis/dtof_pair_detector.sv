@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the highest pair of neighbouring bins while a histogram is scanned, one bin per clock, and by how much the pair
-// behind it is higher than the one before it; each of these has a bin in common with it.
+// Finds the highest pair of neighbouring bins while a histogram is scanned, one bin per clock, and the difference between the pair
+// above and the pair below it, each of which has a bin in common with the highest pair.
 //
-// Equation: P[k] = C[k-1] + C[k] with the counts C, which are 0 outside the histogram; peak = lowest k from 1 to the last
-// bin with the largest P[k]; count = P[peak]; lean = P[peak+1] - P[peak-1]; sum = the sum of all counts.
-// Schedule: a bin's count arrives at S2, in order; behind the last bin come at least two addresses more, with past_s2_i,
-// whose counts are none. In the clock after the second the outputs are valid, until the next pixel's first bin. A pair is
-// registered before it enters the lean, so that no two adders follow each other.
-// A bin that is a scan of its own (first_s2_i again behind it) shows in that clock, too: its index at peak_o, its count
-// at last_o.
+// Equation (docs/reference/readouts.md, coarsehistogram): P[k] = C[k-1] + C[k] with the counts C, which are 0 outside the
+// histogram; peak = lowest k from 1 to the last bin with the largest P[k]; count = P[peak]; lean = P[peak+1] - P[peak-1]; sum =
+// sum of all counts.
+// Schedule: counts arrive at S2, bin by bin. After the last bin come at least two more addresses with past_s2_i, whose counts are
+// ignored. A pair is registered before it enters the lean, so that no two adders are in series.
+// If the next address has first_s2_i, too, the bin is a separate scan: peak_o then has its index and last_o its count in the next clock.
+// Latency: the outputs are valid one clock after the second address with past_s2_i, until the next pixel's first bin.
 // Cost: 5 COUNT_WIDTH + 2 BIN_WIDTH + 7 flip-flops, three adders, a comparator.
 
 // verilator lint_off TIMESCALEMOD
@@ -22,15 +22,15 @@ module dtof_pair_detector #(
     input  logic                   clk_i,
     input  logic                   read_s2_i,
     input  logic                   first_s2_i,  // first bin of a pixel
-    input  logic                   past_s2_i,   // behind the last one
+    input  logic                   past_s2_i,   // the address is beyond the last bin
     input  logic [  BIN_WIDTH-1:0] bin_s2_i,
     input  logic [COUNT_WIDTH-1:0] count_s2_i,
-    output logic [  BIN_WIDTH-1:0] peak_o,      // upper bin of the pair
+    output logic [  BIN_WIDTH-1:0] peak_o,      // upper bin of the highest pair
     output logic [  COUNT_WIDTH:0] count_o,
     output logic signed [COUNT_WIDTH+1:0] lean_o,
     output logic [  SUM_WIDTH-1:0] sum_o,
-    output logic                   first_o,     // the last address was a pixel's first
-    output logic [COUNT_WIDTH-1:0] last_o       // ... and its count
+    output logic                   first_o,     // the last address was a pixel's first bin
+    output logic [COUNT_WIDTH-1:0] last_o       // count of the last address
 );
 
   logic first_q, open_q, add_q, higher, take;
@@ -40,7 +40,7 @@ module dtof_pair_detector #(
   logic signed [COUNT_WIDTH+1:0] lean_q;
   logic [SUM_WIDTH-1:0] sum_q;
 
-  // The broadcast flags select late, behind the adder and the comparator.
+  // first_s2_i and past_s2_i come late from the broadcast, so they select after adder and comparator.
   assign pair = (COUNT_WIDTH + 1)'(last_q) + (COUNT_WIDTH + 1)'(count_s2_i);
   assign higher = first_q || (pair > highest_q);
   assign take = !first_s2_i && !past_s2_i && higher;

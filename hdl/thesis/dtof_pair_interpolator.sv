@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a pulse lies between two bins, from the highest pair of bins: how far the pulse leans to one side, over its height,
-// in units of two thirds of a bin.
+// Position of a pulse between two bins, from the highest pair of bins: the pulse's lean to one side over its height, in units of two
+// thirds of a bin.
 //
-// Equation (docs/reference/readouts.md, coarsehistogram): height = count - ((sum - count) >> (BIN_WIDTH - 1)), the pair
-// above the mean of the others, which is less than the highest, so that height is 0 for an empty histogram alone;
-// offset = floor(2^PLACE_WIDTH 2 min(|lean|, height) / (3 height)), 0 if height is 0. place_o is offset, or its complement
-// if lean is negative, which lower_o says: then the pulse lies in the bin below the edge, so that {bin, place} is the
-// position edge + offset, or edge - 1 - offset.
-// Why two thirds: of a Gaussian pulse as wide (FWHM) as 1.4 bins, the lean over the height is 3/2 of the distance from
-// the pair's middle, to a hundredth of a bin, over the half bin to either side.
-// Schedule: settle_i, when the pair is known: height, |lean|; begin_i: the dividend; then divide_i in PLACE_WIDTH clocks,
-// each of which finds a bit, the highest one first. In the clock behind the last one the outputs are valid. The clocks
-// need not follow each other.
+// Equation (docs/reference/readouts.md, coarsehistogram): height = count - ((sum - count) >> (BIN_WIDTH - 1)), the pair minus the
+// mean of the other pairs. The mean is less than the highest pair, so height is 0 for an empty histogram only.
+// offset = floor(2^PLACE_WIDTH 2 min(|lean|, height) / (3 height)), 0 if height is 0. If lean is not negative, place_o is offset;
+// otherwise lower_o is high and place_o is the complement of offset, because the pulse is in the bin below the edge. So
+// {bin, place} is the position edge + offset, or edge - 1 - offset.
+// Why two thirds: for a Gaussian pulse with a width (FWHM) of 1.4 bins, lean over height is 3/2 of the distance from the
+// pair's middle, accurate to a hundredth of a bin, within half a bin on either side.
+// Schedule: settle_i, when the pair is known: height and |lean|. begin_i: the dividend. divide_i in PLACE_WIDTH clocks: one bit
+// per clock, the highest bit first. The clocks need not be consecutive.
+// Latency: the outputs are valid one clock after the last divide_i.
 // Cost: 2 COUNT_WIDTH + PLACE_WIDTH + 5 flip-flops, six adders or comparators.
 
 // verilator lint_off TIMESCALEMOD
@@ -20,7 +20,7 @@
 module dtof_pair_interpolator #(
     parameter int BIN_WIDTH = 5,
     parameter int COUNT_WIDTH = 10,
-    parameter int PLACE_WIDTH = 7,  // bits of a place within a bin; 0: the bin is the place
+    parameter int PLACE_WIDTH = 7,  // bits of a place within a bin; 0: the position is the bin
     localparam int SUM_WIDTH = COUNT_WIDTH + BIN_WIDTH,
     localparam int PLACE_BITS = dtof_pkg::max_of(PLACE_WIDTH, 1)
 ) (
@@ -33,7 +33,7 @@ module dtof_pair_interpolator #(
     input  logic        [  SUM_WIDTH-1:0] sum_i,
     output logic                          lower_o,
     output logic        [ PLACE_BITS-1:0] place_o,
-    output logic        [COUNT_WIDTH-1:0] confidence_o  // height, limited
+    output logic        [COUNT_WIDTH-1:0] confidence_o  // height, limited to COUNT_WIDTH bits
 );
 
   localparam int DIVISOR_WIDTH = COUNT_WIDTH + 3;

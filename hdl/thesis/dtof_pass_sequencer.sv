@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides which acquisitions belong to the current pass: the measurement split of a frame.
+// Decides which acquisitions belong to the current pass: the split of a frame into measurements, once per array.
 //
-// Equation: pass r of P = COARSE_PASSES + 1 ends before acquisition floor(A * (r + 1) / P), A = acq_num_i
-// (spec section 2; PiFH: section 3). Acquisition a belongs to pass r while left = A * (r + 1) - P * (a + 1) >= 0,
-// so one signed accumulator decides: an acquisition subtracts P, a new pass adds A.
-// Three steps cut floor(A / 2) into P = 3 the same way and leave the rest to the final pass, which ends when a
-// second counter, A - (a + 1), falls below zero.
-// GEAR (fractional pointers): with l acquisitions left of the L of the final pass, gear is the largest g with
-// l <= L >> g; it halves the step each time half of what was left is done.
+// Equation (docs/reference/readouts.md): pass r of P = COARSE_PASSES + 1 ends before acquisition floor(A * (r + 1) / P), A = acq_num_i.
+// Acquisition a belongs to pass r while left = A * (r + 1) - P * (a + 1) >= 0. One signed accumulator decides this: an acquisition
+// subtracts P, a new pass adds A.
+// Three steps split floor(A / 2) into P = 3 passes in the same way. The remaining acquisitions belong to the final pass, which
+// ends when a second counter, A - (a + 1), falls below zero.
+// Gears (fractional pointers): with l acquisitions left of the L of the final pass, the gear is the largest g with
+// l <= L >> g. So the step is halved each time half of the remaining acquisitions are done.
 //
-// Schedule: more_o and gear_o are valid from the clock after load_i, next_pass_i or acq_done_i.
-// Cost: one accumulator of about ACQ_WIDTH + 2 bits an array; for GEARS > 0 a threshold of ACQ_WIDTH bits more.
+// Latency: more_o and gear_o are valid in the clock after load_i, next_pass_i or acq_done_i.
+// Cost: one accumulator of about ACQ_WIDTH + 2 bits per array; for GEARS > 0 a threshold of ACQ_WIDTH bits more.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -27,17 +27,17 @@ module dtof_pass_sequencer #(
     input  logic                  load_i,       // a frame starts with acq_num_i
     input  logic [ACQ_WIDTH-1:0]  acq_num_i,    // stable from load_i to the end of the frame
     input  logic                  next_pass_i,  // the next pass starts
-    input  logic                  final_i,      // together with next_pass_i: it is the final pass
+    input  logic                  final_i,      // with next_pass_i: that pass is the final one
     input  logic                  acq_done_i,   // an acquisition of this pass is complete
     output logic                  more_o,       // another acquisition belongs to this pass
-    output logic [GEAR_WIDTH-1:0] gear_o        // gear of the current acquisition
+    output logic [GEAR_WIDTH-1:0] gear_o        // gear of the present acquisition
 );
 
   localparam int PARTS = (THREE_STEPS != 0) ? 3 : COARSE_PASSES + 1;
   localparam int LEFT_WIDTH = dtof_pkg::max_of(ACQ_WIDTH, $clog2(PARTS + 1)) + 2;
 
   logic signed [LEFT_WIDTH-1:0] left_d, left_q, base;
-  logic final_pass_q;  // used where the final pass differs: three steps, gears
+  logic final_pass_q;  // used by read-outs whose final pass differs: three steps, gears
 
   assign base = (THREE_STEPS != 0) ? LEFT_WIDTH'(acq_num_i) >> 1 : LEFT_WIDTH'(acq_num_i);
 
@@ -86,7 +86,7 @@ module dtof_pass_sequencer #(
 
   generate
     if (GEARS > 0) begin : g_gear
-      // left_q is PARTS * (l - 1) in the final pass; PARTS is 1 or 2 for a pointer read-out.
+      // In the final pass left_q is PARTS * (l - 1); PARTS is 1 or 2 in pointer read-outs.
       localparam int PARTS_SHIFT = $clog2(PARTS);
       logic [GEAR_WIDTH-1:0] gear_q;
       logic [ACQ_WIDTH-1:0] threshold_q;

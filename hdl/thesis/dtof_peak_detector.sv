@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds a histogram's peak while it is scanned, one bin per clock (thesis Fig. 4.10), and its confidence.
+// Finds a histogram's peak and its confidence while the histogram is scanned, one bin per clock (thesis Fig. 4.10).
 //
 // Equation: peak = lowest bin with the largest count; confidence = max(0, C - ((S - C) >> SHARE_SHIFT)) with C
-// the peak count and S the sum of all counts: the peak's height above the mean of the other bins.
-// Schedule: a bin's count arrives at S2; after the last bin the outputs are valid in the next clock (S3) for
-// one clock, while the next pixel's first bin may already arrive.
+// the count of the peak and S the sum of all counts: the peak's height above the mean of the other bins.
+// Schedule: counts arrive at S2, bin by bin. Latency: the outputs are valid at S3, one clock after the last bin, for one clock, in
+// which the next pixel's first bin may already arrive.
 // Cost: 2 COUNT_WIDTH + 2 BIN_WIDTH flip-flops, a comparator, an adder, two subtractors.
 
 // verilator lint_off TIMESCALEMOD
@@ -13,7 +13,7 @@
 module dtof_peak_detector #(
     parameter int BIN_WIDTH = 5,
     parameter int COUNT_WIDTH = 10,
-    parameter int SHARE_SHIFT = 5,  // log2 of the bins the mean is taken over
+    parameter int SHARE_SHIFT = 5,  // log2 of the number of bins of the mean
     localparam int SUM_WIDTH = COUNT_WIDTH + BIN_WIDTH
 ) (
     input  logic                   clk_i,
@@ -36,7 +36,7 @@ module dtof_peak_detector #(
         peak_q <= bin_s2_i;
         count_q <= count_s2_i;
       end
-      // The broadcast flag selects late, behind the adder.
+      // first_s2_i comes late from the broadcast, so it selects after the adder.
       sum_q <= first_s2_i ? SUM_WIDTH'(count_s2_i) : sum_q + SUM_WIDTH'(count_s2_i);
     end
   end

@@ -1,62 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
-// The histogram of a pass: which timestamps count (dtof_data_filter), how often each bin occurs (dtof_histogram_builder), and
-// where the peak is (dtof_peak_detector). Every column that has a histogram has this one.
+// Histogram of a pass, with its three parts: the selection of timestamps (dtof_data_filter), the counts (dtof_histogram_builder), and the
+// search for the peak (dtof_peak_detector). Every column with a histogram uses this module, except the coarse histogram.
 //
-// 1. While timestamps come, the filter gives each at T1 its bin, and the builder counts it if it is kept.
-// 2. While the histograms are scanned, the builder shows one bin's count a clock and clears it, but in M4, and the
-//    detector keeps the largest and the sum.
-// 3. At S3, the clock after a pixel's last bin, peak, count and confidence are final, for one clock.
+// 1. Counting: at T1 the filter finds a timestamp's bin; if the filter keeps the timestamp, the builder counts it.
+// 2. Scanning: the builder shows one bin's count per clock and, except in M4, clears it; the detector keeps the largest count and
+//    the sum.
+// 3. At S3, one clock after a pixel's last bin, peak, count and confidence are final, for one clock.
 //
-// Cost: that of its parts, and nothing more.
+// Latency: 4 clocks from a timestamp at T1 to its count in the SRAM; 3 clocks from the read of a pixel's last bin (S0) to its peak.
+// Cost: its three parts.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module dtof_peak_histogram #(
-    parameter int READOUT = dtof_pkg::READOUT_SIFH,  // chooses the filter
+    parameter int READOUT = dtof_pkg::READOUT_SIFH,  // selects the filter
     parameter int NP = 10,               // bits of a timestamp
     parameter int NB = 6,                // bits of the coarse index
     parameter int PIXELS_PER_SRAM = 160,  // histograms
-    parameter int SLOTS = 2,             // timestamps of a pixel one after the other
+    parameter int SLOTS = 2,             // consecutive timestamps of a pixel
     parameter int COUNT_WIDTH = 10,      // bits of a bin
-    parameter int FREEZE = 1,            // 1: a pixel's first full bin ends its counting; 0: counters saturate
+    parameter int FREEZE = 1,            // 1: a pixel's first full bin ends its counting; 0: full bins stay full
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
-    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
+    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),
     localparam int PEAK_WIDTH = dtof_pkg::peak_width(READOUT, NP, NB),
     localparam int PASS_WIDTH = dtof_pkg::index_width(dtof_pkg::coarse_passes(READOUT, NP, NB) + 1)
 ) (
     input  logic                   clk_i,
-    input  logic                   rst_ni,           // of the assertions alone
-    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic                   rst_ni,           // for assertions only
+    // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // timestamp at T1
-    input  logic                   build_t1_i,       // it is a detection of an acquisition whose pass has a histogram
+    input  logic                   build_t1_i,       // the timestamp is a detection in a pass with a histogram
     input  logic [         NP-1:0] timestamp_t1_i,
-    input  logic [ PEAK_WIDTH-1:0] peak_i,           // its pixel's coarse peak so far
-    input  logic [ PASS_WIDTH-1:0] pass_i,           // its pass
+    input  logic [ PEAK_WIDTH-1:0] peak_i,           // coarse peak so far of the timestamp's pixel
+    input  logic [ PASS_WIDTH-1:0] pass_i,           // pass of the timestamp
     input  logic                   final_pass_i,
-    // schedule, common to all columns; neither scanned nor cleared with a timestamp in the pipeline
+    // schedule, the same for all columns; no scan and no clear while a timestamp is in the pipeline
     input  logic [            3:1] same_pixel_t3_i,  // [d]: the timestamp d clocks ahead is of the same pixel
     input  logic                   beat_t5_i,        // a timestamp is at T5
-    input  logic                   scan_s0_i,        // read for the scan
+    input  logic                   scan_s0_i,        // read for a scan
     input  logic [  BIN_WIDTH-1:0] scan_bin_s0_i,
     input  logic [  ROW_WIDTH-1:0] read_pixel_i,     // pixel of T2 or S0
-    input  logic                   clear_s1_i,       // clear what was read
+    input  logic                   clear_s1_i,       // clear the address that was read
     input  logic [  BIN_WIDTH-1:0] clear_bin_s1_i,
     input  logic [  ROW_WIDTH-1:0] write_pixel_i,    // pixel of T5 or S1
-    input  logic                   clear_all_i,      // of what is frozen, and signalled clear
-    input  logic                   scan_s2_i,        // the count of bin_s2_i is known
-    input  logic                   first_s2_i,       // ... and is the first of its pixel
+    input  logic                   clear_all_i,      // clears all frozen flags, and all status bits with SIGNALLED_CLEAR = 1
+    input  logic                   scan_s2_i,        // the count of bin_s2_i is available
+    input  logic                   first_s2_i,       // with scan_s2_i: first bin of its pixel
     input  logic [  BIN_WIDTH-1:0] bin_s2_i,
-    // of the pixel just scanned, at S3
+    // results of the scanned pixel, at S3
     output logic [  BIN_WIDTH-1:0] peak_o,           // lowest bin with the largest count
     output logic [COUNT_WIDTH-1:0] count_o,          // its count
-    output logic [COUNT_WIDTH-1:0] confidence_o,     // its height above the mean of the others
+    output logic [COUNT_WIDTH-1:0] confidence_o,     // height of the peak above the mean of the other bins
     output logic signed [NP+1:0]   start_o,          // code of bin 0 in the final pass, from peak_i
-    output logic                   full_t5_o         // a bin gets full, or with FREEZE = 0 was full already
+    output logic                   full_t5_o         // a bin becomes full now; with FREEZE = 0 also if it was full before
 );
 
   logic keep;

@@ -2,18 +2,18 @@
 // Counts the timestamps of an acquisition, handshakes with the TDC stream and gives every pipeline stage of the
 // columns its pixel, once per array.
 //
-// The slot counter runs freely while streaming, so that acquisitions start on a SLOTS-clock raster: a
-// single-port pointer SRAM then reads on the first slot's clock and writes on the second's, always.
+// The slot counter runs freely during a pass, so acquisitions start on a raster of SLOTS clocks. Therefore a
+// single-port pointer SRAM always reads in the clock of the first slot and writes in that of the second slot.
 //
 // Schedule (T0 = a timestamp's clock at the port):
-//   fetch    the next pixel's word is read on the first slot of a pixel (FETCH_ON_FIRST_SLOT = 1) or on its
-//            last slot (0), and pixel 0's in the clock before the first acquisition may start
-//   T0       first_slot_t0_o                              registered by the columns, as the timestamp is
+//   fetch    the next pixel's word is read in the clock of a pixel's first slot (FETCH_ON_FIRST_SLOT = 1) or of its
+//            last slot (0); pixel 0's word is read in the clock before the first acquisition may start
+//   T0       first_slot_t0_o, registered in the columns like the timestamp
 //   T1       beat_t1_o, visit_t1_o, first_acq_t1_o
-//   T2       last_slot_t2_o, pixel_t2_o        histogram read, pointer write
+//   T2       last_slot_t2_o, pixel_t2_o: histogram read, pointer write
 //   T3       same_pixel_t3_o[d]: the timestamp d clocks ahead (1 to 3) is of the same pixel
-//   T5       beat_t5_o, pixel_t5_o                        histogram write
-// Cost: counters and the stage copies of the pixel number, per array.
+//   T5       beat_t5_o, pixel_t5_o: histogram write
+// Latency: the stage of an output is in its name. Cost: counters and copies of the pixel number per stage, per array.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -28,17 +28,17 @@ module dtof_pixel_sequencer #(
 ) (
     input  logic                 clk_i,
     input  logic                 rst_ni,
-    input  logic                 stream_i,        // a pass is under way (M0 or M3)
+    input  logic                 stream_i,        // a pass is in progress (M0 or M3)
     input  logic                 more_i,          // another acquisition belongs to the pass
     input  logic                 tdc_valid_i,
     output logic                 tdc_ready_o,
     output logic                 acq_done_o,      // last timestamp of an acquisition in this clock
-    output logic                 idle_o,          // no timestamp in the pipeline and none to come
+    output logic                 idle_o,          // no timestamp in the pipeline, and the pass has no more acquisitions
     output logic                 underrun_o,      // tdc_valid_i is low inside an acquisition
     output logic                 fetch_o,
     output logic [ROW_WIDTH-1:0] fetch_pixel_o,
     output logic                 beat_t1_o,
-    output logic                 first_slot_t0_o,  // also while no acquisition is under way
+    output logic                 first_slot_t0_o,  // also while no acquisition is in progress
     output logic                 visit_t1_o,       // first slot of a pixel's visit
     output logic                 first_acq_t1_o,  // first acquisition of the pass
     output logic                 last_slot_t2_o,
@@ -50,7 +50,7 @@ module dtof_pixel_sequencer #(
 
   localparam logic [ROW_WIDTH-1:0] LAST_PIXEL = ROW_WIDTH'(PIXELS_PER_SRAM - 1);
   localparam logic [SLOT_WIDTH-1:0] LAST_SLOT = SLOT_WIDTH'(SLOTS - 1);
-  // A pass ends when its last timestamp was written: a clock after drain_q = 0 stream_i falls.
+  // A pass ends after its last timestamp is written: stream_i falls one clock after drain_q = 0.
   localparam int DRAIN_CLOCKS = dtof_pkg::HISTOGRAM_WRITE_STAGE - 1;
 
   logic primed_q, active_q, first_acq_q;
@@ -110,7 +110,7 @@ module dtof_pixel_sequencer #(
     end
   end
 
-  // A clock without a valid timestamp inside an acquisition counts as "no detection".
+  // Inside an acquisition, a clock without tdc_valid_i counts as "no detection".
   assign underrun_o = active_q && !tdc_valid_i;
   `DTOF_ASSERT(a_contiguous_acquisition, !underrun_o,
                "tdc_valid_i fell inside an acquisition")

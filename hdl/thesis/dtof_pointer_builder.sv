@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pointers of a column: one word a pixel, moved by the timestamps of all its slots (thesis 4.3).
+// The pointers of a column: one word per pixel, which the timestamps of all its slots move (thesis 4.3).
 //
-// The word {tag, confidence, pointer} lies in a dtof_word_builder, which has the schedule, the SRAM and its hazards; the
-// update between its ports is dtof_pointer_update. The tag (hisPointer: the coarse peak) is stored with the pointer and
-// handed to the user's window test through tag_t1_o, so that it can decide hit_t1_i in the same clock.
+// The word {tag, confidence, pointer} is stored in a dtof_word_builder, which has the schedule, the SRAM and its hazards.
+// dtof_pointer_update between two of its ports computes the next word (equation there). The tag (hisPointer: the coarse peak) is stored
+// with the pointer. tag_t1_o gives the tag to the window test of the column, which drives hit_t1_i in the same clock.
 //
-// A broadcast signal arrives late in a column: the step is registered here, like the timestamp, where it changes.
-// Cost at the defaults: 31 flip-flops of a column, one dtof_pointer_update, PIXELS_PER_SRAM words of SRAM.
+// Broadcast signals arrive late in a column. Therefore the step is registered here like the timestamp, if it is not constant.
+// Schedule and latency: those of dtof_word_builder.
+// Cost at the defaults: 31 flip-flops, one dtof_pointer_update, PIXELS_PER_SRAM words of SRAM, per column.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -14,9 +15,9 @@
 module dtof_pointer_builder #(
     parameter int NP = 10,               // bits of a timestamp
     parameter int PIXELS_PER_SRAM = 160,  // pointers
-    parameter int SLOTS = 2,             // timestamps of a pixel one after the other
-    parameter int POINTER_STEP = 1,      // bins of a step
-    parameter int FRACTION_BITS = 0,     // of the pointer
+    parameter int SLOTS = 2,             // consecutive timestamps of a pixel
+    parameter int POINTER_STEP = 1,      // bins that a pointer moves
+    parameter int FRACTION_BITS = 0,     // fractional bits of a pointer
     parameter int CONFIDENCE_WIDTH = 4,  // 0: no confidence
     parameter int TAG_WIDTH = 0,         // 0: no tag
     parameter int PORTS = 2,             // ports of the SRAM; 1 needs SLOTS >= 2
@@ -27,31 +28,31 @@ module dtof_pointer_builder #(
     localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, FRACTION_BITS)
 ) (
     input  logic                       clk_i,
-    input  logic                       rst_ni,           // of the assertions alone
-    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic                       rst_ni,           // for assertions only
+    // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
-    // schedule, common to all columns
-    input  logic                       read_i,           // fetch ahead, or result read-out
+    // schedule, the same for all columns
+    input  logic                       read_i,           // read before the pixel's timestamps, or for its result
     input  logic [      ROW_WIDTH-1:0] read_pixel_i,
     input  logic                       read_done_i,      // read_i one clock later
-    input  logic                       first_slot_t0_i,  // whether or not an acquisition is under way
+    input  logic                       first_slot_t0_i,  // also while no acquisition is in progress
     input  logic                       visit_t1_i,       // first slot of a pixel's visit
-    input  logic                       first_acq_t1_i,   // in the first acquisition of a pass
-    input  logic                       write_i,          // last slot at T2
+    input  logic                       first_acq_t1_i,   // the visit is in the first acquisition of a pass
+    input  logic                       write_i,          // last slot of a pixel at T2
     input  logic [      ROW_WIDTH-1:0] write_pixel_i,
     input  logic [     STEP_WIDTH-1:0] step_t0_i,        // (POINTER_STEP << FRACTION_BITS) >> gear
     // timestamp at T1
-    input  logic                       may_hit_t0_i,     // the one at T0 may move the pointer
-    input  logic                       hit_t1_i,         // it moves the pointer, or its confidence
+    input  logic                       may_hit_t0_i,     // the timestamp at T0 may move the pointer
+    input  logic                       hit_t1_i,         // the timestamp at T1 moves the pointer, or changes its confidence
     input  logic [             NP-1:0] timestamp_t1_i,
-    output logic [       TAG_BITS-1:0] tag_t1_o,         // of its pixel
+    output logic [       TAG_BITS-1:0] tag_t1_o,         // tag of the timestamp's pixel
     // start value of a pixel, never in the clock of write_i; its confidence is 0
     input  logic                       start_write_i,
     input  logic [      ROW_WIDTH-1:0] start_pixel_i,
     input  logic [  POINTER_WIDTH-1:0] start_pointer_i,
     input  logic [       TAG_BITS-1:0] start_tag_i,
-    // result: the word last read
+    // result: the word that was read last
     output logic [  POINTER_WIDTH-1:0] pointer_o,
     output logic [CONFIDENCE_BITS-1:0] confidence_o
 );
@@ -135,7 +136,7 @@ module dtof_pointer_builder #(
       assign confidence_o = '0;
     end
     if (TAG_WIDTH > 0) begin : g_tag
-      logic unused_read_tag;  // the result has none
+      logic unused_read_tag;  // the result has no tag
       assign unused_read_tag = ^read_word[POINTER_WIDTH+CONFIDENCE_WIDTH+:TAG_WIDTH];
       assign tag_t1_o = current[POINTER_WIDTH+CONFIDENCE_WIDTH+:TAG_WIDTH];
       assign moved[POINTER_WIDTH+CONFIDENCE_WIDTH+:TAG_WIDTH] = tag_t1_o;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // One step of a pointer towards a timestamp, and of its confidence. Combinational.
 //
-// Equation (Eq. 3.12, modulo 2^(NP+F), F = FRACTION_BITS): d = (x << F) - p. d = 0: stay. 1 <= d <= half the
-// range: p + step, otherwise p - step, step = (POINTER_STEP << F) >> gear.
-// Confidence: near (the top five bits of d all equal) adds 1, far with x mod 8 = 0 subtracts 1; it saturates.
-// The low bits of a background timestamp are uniform, so a far one counts 1/8 (docs/reference/readouts.md).
-// Cost: a subtractor, two incrementers in its shadow, equality tests; about 25 gate delays.
+// Equation (Eq. 3.12, modulo 2^(NP+F), F = FRACTION_BITS): d = (x << F) - p. d = 0: p stays. 1 <= d <= half the
+// range: p + step, otherwise p - step, with step = (POINTER_STEP << F) >> gear.
+// Confidence (docs/reference/readouts.md): a near timestamp (the top five bits of d are equal) adds 1; a far one with x mod 8 = 0
+// subtracts 1; the confidence saturates. The low bits of a background timestamp are uniform, so a far one counts 1/8.
+// Latency: none. Cost: a subtractor, two incrementers beside it, equality tests; about 25 gate delays.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -34,13 +34,13 @@ module dtof_pointer_update #(
   logic low_equal, equal, left;
 
   assign target = POINTER_WIDTH'(timestamp_i) << FRACTION_BITS;
-  // A constant where it is one: synthesis of a column alone cannot see that its input never changes.
+  // A constant for F = 0: synthesis of a column alone cannot see that the port never changes.
   assign step = (FRACTION_BITS == 0) ? POINTER_WIDTH'(POINTER_STEP) : POINTER_WIDTH'(step_i);
   assign difference = target - pointer_i;
   assign up = pointer_i + step;
   assign down = pointer_i - step;
 
-  // d = half the range, the opposite point, has only its top bit set and counts as right.
+  // d = half the range, the opposite point, has only its top bit set and counts as p + step.
   assign low_equal = (target[POINTER_WIDTH-2:0] == pointer_i[POINTER_WIDTH-2:0]);
   assign equal = low_equal && (target[POINTER_WIDTH-1] == pointer_i[POINTER_WIDTH-1]);
   assign left = difference[POINTER_WIDTH-1] && !low_equal;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// AXI4-Stream from the columns' result chain: one beat a column for the pixel (row) just read out.
+// AXI4-Stream of the results in the columns' result chain: one beat per column for the pixel (row) that was just scanned.
 //
-// The columns' result registers form a shift chain whose head is column 0. The way to it and back takes LATENCY clocks, so
-// that the chain is shifted ahead of the beats: as long as there is room for what will come, whether or not the sink takes
-// it. The shift is a register's output, so no path leads from tready to 200 columns in one clock.
-// tdata = {column, row, code, fraction, confidence}; tlast on the last column of the last row.
-// Latency: SRAM_NUM + LATENCY + 1 clocks a row when tready stays high; the next row is scanned meanwhile. tvalid never
-// falls before tready.
+// The result registers of the columns form a shift chain whose head is column 0. The way to the chain and back takes LATENCY
+// clocks. Therefore the chain is shifted ahead of the beats, as long as all results on their way have room here even if the sink
+// does not take any. The shift is the output of a register, so no path leads from tready to all columns in one clock.
+// tdata = {column, row, code, fraction, confidence}; tlast on the last column of the last row. tvalid does not fall before tready.
+// Latency: SRAM_NUM + LATENCY + 1 clocks per row while tready stays high; the next row is scanned in this time.
 // Cost: LATENCY + 2 results, three counters.
 `include "dtof_macros.svh"
 
@@ -22,29 +21,29 @@ module dtof_result_output #(
 ) (
     input  logic                                           clk_i,
     input  logic                                           rst_ni,
-    input  logic                                           start_i,     // a row's first result is at head_i LATENCY + 1 clocks later
+    input  logic                                           start_i,     // the first result of a row is at head_i LATENCY + 1 clocks later
     input  logic                                           last_row_i,
     input  logic [                          ROW_WIDTH-1:0] row_i,
     input  logic [                       RESULT_WIDTH-1:0] head_i,      // result register of column 0
     output logic                                           shift_o,
-    output logic                                           done_o,      // last beat of the row accepted
-    output logic                                           busy_o,      // beats to come: chain and row_i are in use
+    output logic                                           done_o,      // last beat of the row was accepted
+    output logic                                           busy_o,      // the row has beats to come: chain and row_i are in use
     output logic                                           tvalid_o,
     input  logic                                           tready_i,
     output logic [COLUMN_WIDTH+ROW_WIDTH+RESULT_WIDTH-1:0] tdata_o,
     output logic                                           tlast_o
 );
 
-  localparam int PLACES = LATENCY + 2;  // a beat per clock
+  localparam int PLACES = LATENCY + 2;  // enough for a beat per clock
   localparam int PLACES_WIDTH = $clog2(PLACES + 1);
   localparam int PLACE_WIDTH = $clog2(PLACES);
   localparam logic [PLACE_WIDTH-1:0] LAST_PLACE = PLACE_WIDTH'(PLACES - 1);
   localparam logic [COLUMN_WIDTH-1:0] LAST_COLUMN = COLUMN_WIDTH'(SRAM_NUM - 1);
 
   logic busy_q, shift_q, done_q, valid_q, last_column, accepted, shift_d, shifted_all, arrives;
-  logic [COLUMN_WIDTH-1:0] column_q, head_column_q;  // of the beat; at the chain's head behind all shifts so far
-  logic [LATENCY:0] arrives_q;                       // a column's result is at the head, lowest bit last
-  logic [PLACES_WIDTH-1:0] promised_q, promised_d;   // results that are kept or on their way
+  logic [COLUMN_WIDTH-1:0] column_q, head_column_q;  // column of the beat; column at the chain's head after all shifts so far
+  logic [LATENCY:0] arrives_q;                       // a column's result is at the head, in (bit number) clocks
+  logic [PLACES_WIDTH-1:0] promised_q, promised_d;   // results that are stored or on their way
   logic [PLACES_WIDTH-1:0] kept_q, kept_d;
   logic [PLACE_WIDTH-1:0] read_q, write_q;
   logic [PLACES*RESULT_WIDTH-1:0] results_q;
@@ -95,7 +94,7 @@ module dtof_result_output #(
     end
   end
 
-  // Where a result goes does not depend on the sink, so that tready has a short way.
+  // The write enables do not depend on the sink, so that the path from tready is short.
   integer i;
   always_ff @(posedge clk_i) begin
     for (i = 0; i < PLACES; i = i + 1) begin

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One link of the result chain: loads the column's result, or takes the next column's when the chain shifts.
+// One link of the result chain: loads the result of its column, or takes that of the next column when the chain shifts.
+//
+// Latency: 1 clock. Cost: WIDTH flip-flops and a multiplexer per column.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -9,7 +11,7 @@ module dtof_result_register #(
     parameter int WIDTH = 14
 ) (
     input  logic             clk_i,
-    input  logic             rst_ni,         // of the assertion alone
+    input  logic             rst_ni,         // for the assertion only
     input  logic             load_i,
     input  logic             shift_i,
     input  logic [WIDTH-1:0] result_i,

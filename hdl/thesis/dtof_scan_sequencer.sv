@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walks the histogram of every pixel, one address per clock, for clearing (RESET) and peak search (M1, M4),
-// once per array. While it scans it clears each address one clock behind the read, but in M4.
+// once per array. In M1 each address is cleared one clock after its read; in M4 it is not.
 //
-// With RAW_BINS > 0, raw_i makes M4 another one: the pixels from raw_first_i to raw_last_i alone, bin by bin, one address
-// a start, so that a bin's count takes the place of a peak.
+// With RAW_BINS > 0, raw_i changes M4: one address per start, bin by bin, of the pixels raw_first_i to raw_last_i only, so that a
+// bin's count takes the place of a peak.
 //
 // Schedule of one address: S0 read, S1 data registered by the column and address cleared, S2 peak search,
 // S3 (after a pixel's last bin) the peak is final.
-// Latency: one clock an address and 3 more; RESET clears only. In M4 it stops after one pixel, whose last bin it
-// holds back until the results of the pixel before have left the result chain (one clock at least).
-// Cost: two counters and their stage copies an array.
+// Latency: one clock per address and 3 more; RESET clears only. In M4 the scan stops after one pixel. It holds the pixel's last
+// bin until the results of the row before have left the result chain (at least one clock).
+// Cost: two counters and their copies per stage, per array.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module dtof_scan_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
-    parameter int BIN_WIDTH = 5,   // log2 of the addresses a pixel
-    parameter int RESET_BINS = 32,  // addresses a pixel to clear in RESET
-    parameter int FINAL_BINS = 32,  // addresses a pixel to read in M4
-    parameter int SKIP_RESET = 0,   // 1: RESET clears without walking (signalled clear)
-    parameter int RAW_BINS = 0,     // addresses a pixel to read in M4 with raw_i; 0: there is no raw_i
+    parameter int BIN_WIDTH = 5,   // log2 of the addresses of a pixel
+    parameter int RESET_BINS = 32,  // addresses of a pixel to clear in RESET
+    parameter int FINAL_BINS = 32,  // addresses of a pixel to read in M4
+    parameter int SKIP_RESET = 0,   // 1: RESET clears without a walk (signalled clear)
+    parameter int RAW_BINS = 0,     // addresses of a pixel to read in M4 with raw_i; 0: raw_i has no effect
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
 ) (
     input  logic                 clk_i,
@@ -29,12 +29,12 @@ module dtof_scan_sequencer #(
     input  logic                 reset_state_i,  // with start_i: clear only, all pixels
     input  logic                 final_state_i,  // with start_i: one pixel, FINAL_BINS addresses
     input  logic                 hold_i,         // the result chain is in use
-    input  logic                 raw_i,          // these three are the frame's
+    input  logic                 raw_i,          // raw_i, raw_first_i and raw_last_i are stable during a frame
     input  logic [ROW_WIDTH-1:0] raw_first_i,
     input  logic [ROW_WIDTH-1:0] raw_last_i,
     output logic                 busy_o,
-    output logic [ROW_WIDTH-1:0] row_o,          // the pixel just scanned
-    output logic                 last_row_o,     // ... was the last; with raw_i, and its last bin
+    output logic [ROW_WIDTH-1:0] row_o,          // pixel that was just scanned
+    output logic                 last_row_o,     // that pixel was the last; with raw_i also its last bin
     output logic                 read_s0_o,
     output logic                 last_s0_o,
     output logic [ROW_WIDTH-1:0] pixel_s0_o,
@@ -62,7 +62,7 @@ module dtof_scan_sequencer #(
   logic [BIN_WIDTH-1:0] bin_q, last_bin;
   logic last, one_address;
 
-  // A raw histogram: where it is, and what comes behind this bin.
+  // Raw histogram: its present address, and whether it ends with this bin.
   logic raw, raw_start, raw_ends;
   logic [BIN_WIDTH-1:0] raw_bin;
   logic [ROW_WIDTH-1:0] pixel;

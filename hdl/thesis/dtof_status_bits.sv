@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signalled clear (thesis 4.4.2): one flip-flop an SRAM address shows whether the address was written since the last
-// clear, so that clearing takes one clock. The thesis's price stands: DEPTH flip-flops a column.
+// Signalled clear (thesis 4.4.2): one flip-flop per SRAM address says whether the address was written since the last
+// clear, so that clearing takes one clock.
 //
-// Schedule: valid_o belongs to read_addr_i of the clock before, as the SRAM's read data does; write_i makes an
+// Schedule: valid_o belongs to read_addr_i of the clock before, like the SRAM's read data; write_i makes an
 // address valid from the next clock on; clear_i makes all invalid.
+// Latency: 1 clock. Cost: DEPTH flip-flops, a decoder and a multiplexer of DEPTH bits, per column.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# A routed DEF in Magic: netlist as extracted, design rules, GDS. Run without a display; ends with DTOF_MAGIC_OK only if
-# every step succeeded. DTOF_NAME: the block; DTOF_LEF: the cells. Boxes are in lambda, tenths of a micrometre.
+# Reads a routed DEF into Magic; writes the extracted netlist, design rule errors and GDS. Runs without a display; prints DTOF_MAGIC_OK
+# only if every step succeeded. DTOF_NAME: the block; DTOF_LEF: the cells. Boxes are in lambda, tenths of a micrometre.
 proc run {} {
   set name $::env(DTOF_NAME)
   drc off

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Technology module for a compiled single-port SRAM with active-low controls and no byte write enable.
 //
-// One branch a macro: copy a branch for every size in use. A size without a macro stops elaboration, so that no
-// memory becomes flip-flops by accident. The polarity of the controls is the only logic; a compiler whose data
-// input must be held, or whose write needs a mask, is adapted here and nowhere else.
+// One branch per macro: copy a branch for every size in use. A size without a macro stops elaboration, so that no
+// memory becomes flip-flops by accident. The polarity of the controls is the only logic. If a compiler's data
+// input must be held, or its write needs a mask, adapt this module only.
+// Latency: one clock. Cost: one macro.
 module dtof_sram_1rw #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
@@ -33,7 +34,7 @@ module dtof_sram_1rw #(
           .Q  (rdata_o)
       );
     end else begin : g_no_macro
-      // An unknown module stops every tool, with the size in the instance's path.
+      // An unknown module stops every tool; the message has the size in the instance's path.
       sram_size_without_macro #(
           .DEPTH(DEPTH),
           .WIDTH(WIDTH)

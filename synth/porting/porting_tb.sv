@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two columns of ezPointer on a single-port SRAM read out a pseudo-random frame and print every result. The test
-// compiles it once with the behavioural SRAM and once with the wrapper and compares the lines.
+// Two columns of ezPointer on a single-port SRAM read out a pseudo-random frame; the bench prints every result. The test
+// compiles the bench once with the behavioural SRAM and once with the wrapper, and compares the lines.
 module porting_tb;
 
   localparam int NP = 10;

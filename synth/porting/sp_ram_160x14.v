@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stand-in for the simulation model that an SRAM compiler delivers: single port, active-low controls, no byte
-// write. CEN low selects the macro, WEN low writes; Q changes only on a read. Replace by the compiler's file.
+// write. CEN low selects the macro, WEN low writes; Q changes only on a read. Replace this file by the compiler's.
 module sp_ram_160x14 (
     input             CLK,
     input             CEN,

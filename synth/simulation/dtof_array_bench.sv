@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the netlist only.
+// Connects dtof_array to stream_bench: the RTL alone; with the macro NETLIST the RTL and its netlist side by side; with NETLIST and
+// NETLIST_ALONE the netlist alone.
 module dtof_array_bench #(
     parameter int READOUT = 0,
     parameter int NP = 10,
@@ -16,7 +17,7 @@ module dtof_array_bench #(
     parameter int POINTER_PORTS = 2,
     parameter int SIGNALLED_CLEAR = 0,
     parameter int TIME_GATE = 0,
-    parameter int RAW_HISTOGRAM = 0,  // the vectors have results alone
+    parameter int RAW_HISTOGRAM = 0,  // the vectors have results only
     parameter int ACQ_WIDTH = 16,
     parameter int BROADCAST_STAGES = 2,
     parameter int FRAMES = 1,
@@ -37,7 +38,7 @@ module dtof_array_bench #(
   logic clk, rst_n, start, tdc_valid, result_tready;
   logic [ACQ_WIDTH-1:0] acq_num, gate_begin, gate_end;
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
-  logic [TDATA_WIDTH+12:0] rtl, netlist;  // as stream_bench has them
+  logic [TDATA_WIDTH+12:0] rtl, netlist;  // in the order of stream_bench
 
 `ifndef NETLIST_ALONE
   dtof_array #(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_pool_pointer_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the
-// netlist only.
+// Connects dtof_pool_pointer_array to stream_bench: the RTL alone; with the macro NETLIST the RTL and its netlist side by side; with
+// NETLIST and NETLIST_ALONE the netlist alone.
 module dtof_pool_pointer_array_bench #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 12,
@@ -39,9 +39,9 @@ module dtof_pool_pointer_array_bench #(
   logic clk, rst_n, start, tdc_valid, result_tready;
   logic [ACQ_WIDTH-1:0] acq_num, coarse_end, track_end, settings;
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
-  logic [TDATA_WIDTH+12:0] rtl, netlist;  // as stream_bench has them
+  logic [TDATA_WIDTH+12:0] rtl, netlist;  // in the order of stream_bench
 
-  // TEMPLATE is held while an array is busy. In frames that ask for it entry i is 255 >> (i / 2).
+  // TEMPLATE is stable while an array is busy. In frames with a template entry i is 255 >> (i / 2).
   logic with_template_q;
   logic [dtof_pkg::POOL_COARSE_BINS*dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] coarse_template;
 
@@ -106,7 +106,7 @@ module dtof_pool_pointer_array_bench #(
       .result_tdata_o (rtl[TDATA_WIDTH-1:0]),
       .result_tlast_o (rtl[TDATA_WIDTH])
   );
-  assign rtl[TDATA_WIDTH+12] = 1'b0;  // counter_full_o is dtof_array's
+  assign rtl[TDATA_WIDTH+12] = 1'b0;  // only dtof_array has counter_full_o
 `endif
 
 `ifdef NETLIST

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs Verilator's model of a bench to its $finish. Verilator 5.006's own --main would be compiled into every
+// Runs Verilator's model of a bench up to its $finish. Replaces --main of Verilator 5.006, which would be compiled into every
 // hierarchy block, too.
 #include "Vfull_bench.h"
 #include "verilated.h"

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives one array, or the RTL and the netlist of one side by side, through the frames that dtof-vectors wrote, and
+// Drives one array, or the RTL and the netlist of an array side by side, through the frames that dtof-vectors wrote, and
 // checks every clock. The first failure is printed and ends the simulation; "DTOF_PASS ..." is printed at the end.
 //
-// Driven: pauses between acquisitions with X on the timestamps, back-pressure, start pulses while busy, X on the
-// settings unless a frame starts, a reset at a random clock of a frame that has run before.
-// Checked: results against the model's in the order of the stream, AXI4-Stream rules, handshake, no X on a control
-// output after the first reset, no X on a valid result, an error for each start while busy and none else, the SRAMs'
-// side band, which the bench gives the start pulse and the stand-ins answer with, and with COMPARE every output of the
-// netlist wherever the RTL's is not X.
+// Stimuli: pauses between acquisitions with X on the timestamps, back-pressure, start pulses while busy, X on the
+// settings except in a start, a reset at a random clock of a frame that has run before.
+// Checks: results against those of the model in the order of the stream, rules of AXI4-Stream, handshake, no X on a control
+// output after the first reset, no X on a valid result, an error for each start while busy and no other error, the side band of
+// the SRAMs (the bench sends the start pulse, and the stand-ins return it), and with COMPARE every output of the
+// netlist in every clock in which that of the RTL is not X.
 module stream_bench #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 3,
     parameter int SRAM_NUM = 2,
     parameter int SLOTS = 2,
     parameter int ACQ_WIDTH = 16,
-    parameter int FRACTION_BITS = 0,     // of a result
-    parameter int CONFIDENCE_WIDTH = 4,  // of a result
-    parameter int TURNS = 1,  // engines send their columns in so many turns; 1 without engines
+    parameter int FRACTION_BITS = 0,     // fractional bits of a result
+    parameter int CONFIDENCE_WIDTH = 4,  // bits of a result's confidence
+    parameter int TURNS = 1,  // number of turns in which the engines send their columns; 1 without engines
     parameter int COMPARE = 0,
     parameter int FRAMES = 1,            // lines of frames.txt
     parameter int BEATS = 1,             // lines of timestamps.hex
@@ -46,7 +46,7 @@ module stream_bench #(
   localparam int RESULTS = PIXELS_PER_SRAM * SRAM_NUM;
   localparam int CLOCKS_WITHOUT_PROGRESS = 20000;
 
-  // What dtof-vectors wrote.
+  // Files that dtof-vectors wrote.
 
   logic [SRAM_NUM*NP-1:0] timestamps[0:BEATS-1];
   logic [47:0] expected[0:FRAMES*RESULTS-1];  // code, fraction, confidence, 16 bits each
@@ -58,7 +58,7 @@ module stream_bench #(
   integer frame_stall[FRAMES];
   integer frame_reset[FRAMES];
 
-  // Outputs, of the RTL and of the netlist.
+  // Outputs of the RTL and of the netlist.
 
   logic [dtof_pkg::ERROR_WIDTH-1:0] error, wanted_error;
   logic unused_counter_full, sram_cfg, busy, done, tdc_ready, tvalid, tlast;
@@ -110,7 +110,7 @@ module stream_bench #(
     end
   endtask
 
-  // One output, named.
+  // Compares one output and names it in a failure.
   task compare(input [8*16-1:0] name, input integer low, input integer width);
     integer bit_number;
     logic differs;
@@ -226,7 +226,7 @@ module stream_bench #(
     end
   endtask
 
-  // A clock: the inputs are set, the outputs settle and are checked, then comes the edge.
+  // One clock: set the inputs, let the outputs settle, check them, then the edge.
 
   task settle;
     begin
@@ -261,7 +261,7 @@ module stream_bench #(
 
   task drive;
     begin
-      // A start while busy, with the settings of another frame, changes nothing, nor does one with done_o.
+      // A start while busy, with the settings of another frame, changes nothing; neither does a start with done_o.
       draw(8, drawn);
       start_o = (frame_clocks == 0) || (drawn == 0) || done;
       set_settings(frame_clocks == 0);
@@ -283,7 +283,7 @@ module stream_bench #(
     end
   endtask
 
-  // What happened in the clock whose inputs and outputs stand.
+  // Evaluates the clock with the present inputs and outputs.
   task follow;
     begin
       idle_clocks = idle_clocks + 1;
@@ -317,7 +317,7 @@ module stream_bench #(
     end
   endtask
 
-  // All of a frame, or with reset_at other than 0 a reset after so many clocks of it. `length`: its clocks.
+  // Runs a frame, or with reset_at other than 0 as many clocks of it and then a reset. `length`: clocks of the frame.
   task run_frame(input integer reset_at, output integer length);
     logic ended;
     begin
@@ -373,7 +373,7 @@ module stream_bench #(
     end
   endtask
 
-  // No frame under way: nothing is taken, nothing is sent.
+  // Between frames: nothing is accepted, nothing is sent.
   task rest;
     begin
       start_o = 1'b0;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sums of cells' power. `report_power -instances` would print and sort tens of thousands of lines.
+# Sums of the power of cells. `report_power -instances` would print and sort tens of thousands of lines.
 
-# One line per group of `groups` (a name, its cells, and so on): DTOF_POWER <label> <group> <internal> <switching> <leakage>, in W.
+# Prints one line per group of `groups` (name, cells, name, cells ...): DTOF_POWER <label> <group> <internal> <switching> <leakage>, in W.
 proc report_power_sums {label groups} {
   set corner [sta::cmd_corner]
   foreach {group cells} $groups {
@@ -14,7 +14,7 @@ proc report_power_sums {label groups} {
   }
 }
 
-# The groups twice: with nearly idle data, so that the clock is what remains (CLOCK), and with every data net at `activity` (ALL).
+# Each group twice: with nearly idle data, so that the clock's power remains (CLOCK), and with all data nets at `activity` (ALL).
 proc report_clock_and_all {activity groups} {
   foreach {label value} [list CLOCK 1e-9 ALL $activity] {
     set_power_activity -global -activity $value

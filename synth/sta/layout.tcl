@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# One netlist with three kinds of wires: none, the wire-load model's, those of the layout. Every path counts from a register
-# or a port to a register or a port, without a share of the period for what is outside; the clock is ideal. OpenSTA exits 0
-# even after errors, so the flow looks for DTOF_STA_OK.
+# Times one netlist with three kinds of wires: none, those of the wire-load model, those of the layout. Every path counts from a
+# register or a port to a register or a port, without budgets for logic outside; the clock is ideal. OpenSTA exits with 0
+# even after errors, so the flow checks for DTOF_STA_OK.
 proc ends {label} {
   puts $label
   report_checks -path_delay max -format end -digits 4 -group_count 100000 -endpoint_count 1

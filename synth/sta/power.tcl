@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Power of every cell of a column's netlist at one activity of all data nets, beside nearly idle data, whose difference is
-# the data's. As in timing.tcl the marker DTOF_STA_OK says that every command succeeded.
+# Power of every cell of a column's netlist with one activity of all data nets, and with nearly idle data; the difference is the power of
+# the data. As in timing.tcl the marker DTOF_STA_OK says that every command succeeded.
 source $::env(DTOF_SCRIPTS)/cell_power.tcl
 
 proc run {} {

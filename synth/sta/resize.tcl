@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-# Gates of other drive strengths, by trial: OpenSTA times the whole array anew after each. ABC chooses them without knowing when
-# an SRAM's word or a broadcast arrives, and when its outputs are due.
-#   grow     of the slowest path the gate whose larger drive takes the most negative slack away for its area, and others that take
-#            at least SHARE_OF_BEST of that, until no slack is negative, or no such gate is on the slowest PATHS, or MOST_GROWN
-#            have been enlarged; nothing grows where a path misses by more than HOPELESS_NS, which no drive mends
-#   drop     the buffers of `dispensable`, if that leaves all paths met: {kind buffer driver drive}, where `drive` is the cell of
-#            the driver that carries the load without it
-#   shrink   the gates of `shrinkable` to the next smaller drive, if that leaves all paths met
-# `drives`: cells of one function, smallest first, by list. `blocks`: kind of a block, its instances, how many the array has of
-# it; a gate is resized in all of them at once. Gates outside blocks have the kind `top`. `stand_ins`: kind of a block, the
-# instances that have only its border, and the gates that these have.
+# Changes drive strengths of gates by trial: OpenSTA times the whole array again after each change. ABC chooses drives without the
+# arrival times of SRAM words and broadcasts, and without the required times of their outputs.
+#   grow     On the slowest path, enlarges the gate whose larger drive removes the most negative slack for its area, and others that remove
+#            at least SHARE_OF_BEST of that. Ends if no slack is negative, or if no such gate is on the slowest PATHS, or if MOST_GROWN
+#            gates are enlarged. Does not try if a path misses by more than HOPELESS_NS, which no drive corrects.
+#   drop     Removes buffers of `dispensable` if all paths stay met: {kind buffer driver drive}, where `drive` is the cell of
+#            the driver that carries the load without the buffer.
+#   shrink   Sets the gates of `shrinkable` to the next smaller drive if all paths stay met.
+# `drives`: lists of cells of one function, smallest first. `blocks`: kind of a block, its instances, their number in the array; a
+# gate is resized in all of them at once. Gates outside blocks have the kind `top`. `stand_ins`: kind of a block, the
+# instances that have only gates at the border, and these gates.
 # `buffer_pins`: input and output of all buffers.
-# Prints what is another drive now, which buffers are not needed, the area of it all and the slack.
+# Prints the changed drives, the buffers that are not needed, the total area and the slack.
 
 set PATHS 100
 set MOST_GROWN 500
@@ -28,14 +28,14 @@ proc index_drives {} {
   }
 }
 
-# {kind gate} of a pin's name, or nothing for a port.
+# {kind gate} of a pin's name, or an empty list for a port.
 proc gate_of {pin} {
   set parts [split $pin /]
   if {[llength $parts] == 2} { return [list top [lindex $parts 0]] }
   if {[llength $parts] == 3} { return [list $::kind_of([lindex $parts 0]) [lindex $parts 1]] }
 }
 
-# Blocks that have a gate, stand-ins behind the others.
+# Blocks that have a gate; stand-ins last.
 proc blocks_with {kind gate} {
   if {[info exists ::in_stand_ins([list $kind $gate])]} { return [concat $::instances_of($kind) $::stand_ins_of($kind)] }
   return $::instances_of($kind)
@@ -49,7 +49,7 @@ proc instances {kind gate} {
   return $::cells_of([list $kind $gate])
 }
 
-# What another drive of a gate adds to the array's area.
+# Area that another drive of a gate adds to the array.
 proc added_area {gate now next} {
   return [expr {$::copies_of([lindex $gate 0]) * ($::area_of($next) - $::area_of($now))}]
 }
@@ -58,7 +58,7 @@ proc resize_to {cells name} {
   foreach cell $cells { replace_cell $cell [get_lib_cells */$name] }
 }
 
-# Gates on a path that have a larger drive, each once.
+# Gates on a path that have a larger drive, without duplicates.
 proc growable {path} {
   set found {}
   foreach point [get_property $path points] {
@@ -70,14 +70,14 @@ proc growable {path} {
   return $found
 }
 
-# What a drive of a gate takes away of the negative slack for its area; 0 where that is hardly any.
+# Negative slack that a drive of a gate removes, over its area; 0 if it removes hardly any.
 proc worth {gate cells now next before} {
   resize_to $cells $next
   set gain [expr {[total_negative_slack] - $before}]
   return [expr {$gain > 1e-5 ? $gain / [added_area $gate $now $next] : 0}]
 }
 
-# Gates to grow on a path, each as {worth gate now next} with its next larger drive, the best first; nothing if none helps.
+# Gates to grow on a path, each as {worth gate now next} with its next larger drive, the best first; empty if none helps.
 proc growths_of_path {path} {
   set before [total_negative_slack]
   set found {}
@@ -93,8 +93,8 @@ proc growths_of_path {path} {
   return [lsort -real -decreasing -index 0 $found]
 }
 
-# Grows the best gate of a path, and those that still take enough once that is done, each as far as it gets better by it;
-# returns them.
+# Grows the best gate of a path, and those that still remove enough after that, each as far as its growth helps; returns the grown
+# gates.
 proc grow {growths} {
   set enough [expr {[lindex $growths 0 0] * $::SHARE_OF_BEST}]
   set grown {}
@@ -117,8 +117,8 @@ proc grow {growths} {
   return $grown
 }
 
-# Those of the slowest path where there are any. OpenSTA keeps the memory of all paths that it ever found, so the slowest
-# alone is looked at first. A gate that once did not help is looked at again when no other one does.
+# Gates of the slowest path, if it has any. OpenSTA keeps the memory of all paths that it ever found, so only the slowest
+# path is looked at first. A gate that once did not help is tried again when no other gate helps.
 proc best_growths {} {
   foreach again {0 1} {
     if {$again} { array unset ::hopeless }
@@ -132,7 +132,7 @@ proc best_growths {} {
   }
 }
 
-# Pins of a net but the one that drives it.
+# Pins of a net, except its driver.
 proc sinks {net driver} {
   set found {}
   foreach pin [get_pins -of_objects $net] {
@@ -149,7 +149,7 @@ proc move_pins {pins from to} {
   }
 }
 
-# Says that a gate has another drive now.
+# Records that a gate has another drive now.
 proc note {gate now next} {
   dict set ::resized $gate $next
   set ::area [expr {$::area + [added_area $gate $now $next]}]
@@ -167,7 +167,7 @@ proc grow_late_paths {} {
   }
 }
 
-# Takes a buffer out if no path becomes too slow by it.
+# Removes a buffer if all paths stay met.
 proc drop {kind buffer driver drive} {
   lassign $::buffer_pins input output
   set cells [instances $kind $driver]
@@ -202,7 +202,7 @@ proc drop {kind buffer driver drive} {
   if {$drive ne $now} { note [list $kind $driver] $now $drive }
 }
 
-# Gives a gate the next smaller drive if no path becomes too slow by it.
+# Sets a gate to the next smaller drive if all paths stay met.
 proc shrink {gate} {
   set limit [total_negative_slack]
   set cells [instances {*}$gate]

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-# Timing and power of one netlist in one corner, in the `steps` that are asked for, in this order:
-#   check     what no path reaches
+# Timing and power of one netlist in one corner. `steps` selects from the following steps, in this order:
+#   check     ends of paths that no path reaches
 #   nominal   slacks at the target clock
-#   closing   the shortest period, and the slack at the fast one
-#   power     of every cell, at the target clock
-#   margins   slacks with the margins of constraints/margins.sdc, which stay
-#   early     the paths that are too early with these margins
-#   spare     what each of `pins` has to spare for setup with these margins
-#   resize    gates of other drive strengths (resize.tcl); alone, since the clock and the margins of that step stay
-# OpenSTA exits 0 even after errors, so the flow looks for the marker DTOF_STA_OK, which is printed only after every command
+#   closing   the shortest period, and its slack
+#   power     power of every cell, at the target clock
+#   margins   slacks with the margins of constraints/margins.sdc, which stay in force
+#   early     paths that are too early with these margins
+#   spare     setup slack of each of `pins` with these margins
+#   resize    other drive strengths of gates (resize.tcl); alone, since the clock and the margins of that step stay in force
+# OpenSTA exits with 0 even after errors, so the flow checks for the marker DTOF_STA_OK, which is printed only after every command
 # succeeded.
 
 source $::env(DTOF_SCRIPTS)/cell_power.tcl
@@ -19,8 +19,8 @@ proc constrain {new_period} {
   uplevel #0 source $::constraints
 }
 
-# Shortest period without violation, from the target clock on. Slack falls with the period, but less than it where a port's
-# budget is a share of the period: secant steps, at most twelve.
+# Shortest period without violation, searched from the target clock on. Slack falls with the period, but by less than the period if a
+# port's budget is a share of the period: secant steps, at most twelve.
 proc closing_period {} {
   set previous_period $::target_period
   set previous_slack [worst_slack -max]
@@ -92,7 +92,7 @@ proc spare {} {
   puts "DTOF_END"
 }
 
-# Power of the cells of the column `measured_column` and of all outside the columns, without SRAMs.
+# Power of the cells of the column `measured_column`, and of all cells outside the columns, without SRAMs.
 proc power {} {
   set column {}
   set shared {}

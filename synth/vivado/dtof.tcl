@@ -5,7 +5,7 @@
 #   dtof_read_rtl                       ;# or: dtof_read_rtl my_srams, for a folder with one's own dtof_sram_1rw.sv, dtof_sram_1r1w.sv and dtof_clock_gate.sv
 #   synth_design -top dtof_subsystem -part xc7a35ticsg324-1L -generic READOUT=2 -generic SRAM_NUM=8 -generic PIXELS_PER_SRAM=16 -generic CLOCK_WAITS=0
 #
-# The files are those of hdl/dtof_no_srams.f, in its order.
+# The files are those of hdl/dtof_no_srams.f, in the same order.
 
 set dtof_hdl [file normalize [file join [file dirname [info script]] .. .. hdl]]
 

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-# Technology-independent synthesis. The column stays a module of its own, so that it is synthesised once
-# however many columns the array has, and so does an engine that columns share; everything else is flattened
-# into the shared logic.
+# Technology-independent synthesis. The column stays a separate module, so that it is synthesised once
+# for any number of columns, and so does an engine that columns share. Everything else is flattened into the shared logic.
 #
-# `synth` up to its fine part, and that without opt_share: merging the +step and -step of a pointer behind one
+# Runs `synth` up to its fine part, and the fine part without opt_share: merging the +step and -step of a pointer behind one
 # multiplexed adder saves some area but puts the comparison in front of the adder.
-# In a pool read-out four columns share an SRAM: there the four columns are the module.
+# In a pool read-out four columns share an SRAM; the module is then all four columns.
 setattr -mod -set keep_hierarchy 1 *_column *_quad *_engine
 setattr -mod -unset keep_hierarchy *dtof_pool_column
 if {[llength $kept_modules]} { setattr -mod -set keep_hierarchy 1 {*}$kept_modules }

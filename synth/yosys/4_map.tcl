@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# Maps to the library: flip-flops, then logic with buffering and sizing against the clock period, constants last.
+# Maps to the library: flip-flops, then logic with buffering and sizing for the clock period, constants last.
 #
-# The column, which the array has many times, and what the columns share have an ABC script each. ABC's result depends on private
-# names, on which nothing else depends: another naming shows by how much (make synth-namings).
+# The column and the logic that columns share have separate ABC scripts. ABC's result depends on private names, which have no other
+# effect; another naming shows by how much (make synth-namings).
 proc map_part {selection abc_script} {
   global liberty abc_constraints abc_period_ps naming
   yosys select {*}$selection

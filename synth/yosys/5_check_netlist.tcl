@@ -1,4 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-# What a netlist must not contain: unmapped cells, undriven nets, multiple drivers, combinational loops.
+# Checks for what a netlist must not contain: unmapped cells, undriven nets, multiple drivers, combinational loops.
 select -assert-none t:\$* t:\$paramod* %d
 check -assert -mapped

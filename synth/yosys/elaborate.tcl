@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# RTL to elaborated netlist.
+# From RTL to an elaborated netlist.
 yosys -import
 source $::env(DTOF_SETTINGS)
 foreach step {1_read 2_check_rtl} {

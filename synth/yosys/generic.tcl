@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Elaborated to technology-independent netlist.
+# From an elaborated to a technology-independent netlist.
 yosys -import
 source $::env(DTOF_SETTINGS)
 read_rtlil $elaborated_netlist

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# dtof_line_buffer alone, mapped to the library; its area is in the log.
+# Maps dtof_line_buffer alone to the library; the log has its area.
 yosys -import
 source $::env(DTOF_SETTINGS)
 puts "DTOF_STEP read"

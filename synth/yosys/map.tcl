@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Technology-independent to mapped netlist; repeated with more effort if the timing does not close.
+# From a technology-independent to a mapped netlist; repeated with more effort if timing does not close.
 yosys -import
 source $::env(DTOF_SETTINGS)
 read_rtlil $generic_netlist

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# As map.tcl, for the column (of a pool read-out for a pair of columns, without the SRAM) alone: what is placed and routed.
+# As map.tcl, for the column alone (in a pool read-out a pair of columns without the SRAM): input of place and route.
 yosys -import
 source $::env(DTOF_SETTINGS)
 read_rtlil $generic_netlist

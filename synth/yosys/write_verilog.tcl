@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Netlist in JSON to the plain Verilog that OpenSTA reads.
+# From a netlist in JSON to plain Verilog for OpenSTA.
 yosys -import
 source $::env(DTOF_SETTINGS)
 read_json $netlist_json

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stand-in for an integrated clock-gating cell. Swap for silicon.
+// Stand-in for an integrated clock-gating cell. Replace it for silicon.
 //
-// A clock with enable_i high ends with a rising edge of clk_o, one with enable_i low without one; scan_mode_i lets all
-// pass. enable_i is taken while clk_i is low, so that it may settle until clk_i rises, and clk_o has no glitch.
-// Cost: one cell.
+// A clock period with enable_i high ends with a rising edge of clk_o; with enable_i low it ends without an edge. scan_mode_i enables all
+// edges. The latch is transparent while clk_i is low, so enable_i may settle until clk_i rises, and clk_o has no glitch.
+// Latency: none. Cost: one cell.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module dtof_clock_gate #(
-    parameter int NEEDED = 0  // 1: what the clock drives is wrong without the gate; 0: the gate saves power, and nothing else
+    parameter int NEEDED = 0  // 1: the logic behind the gate fails without the gate; 0: the gate only saves power
 ) (
     input  logic clk_i,
     input  logic enable_i,

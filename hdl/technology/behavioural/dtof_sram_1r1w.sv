@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stand-in for a two-port SRAM macro: one read and one write port, one clock. Swap for silicon.
+// Stand-in for a two-port SRAM macro: one read and one write port, one clock. Replace it for silicon.
 //
-// Read:   rdata_o shows the word one clock after re_i and keeps it until the next read.
+// Read:   rdata_o has the word one clock after re_i and holds it until the next read.
 // Write:  wdata_i is stored at the clock edge that ends a clock with we_i.
-// Read and write of one address in one clock: the word is written, the read data is undefined.
-// What is undefined is X, so that a user that relies on it fails at once and synthesis is free to infer a bare
-// block RAM. Verilator has no X: there contents are random until written and undefined read data is inverted.
+// Read and write of one address in one clock: the word is written, the read data are undefined.
+// Undefined data are X, so that a module that relies on them fails at once, and synthesis is free to infer a block RAM
+// without extra logic. Verilator has no X: contents are random until written, and undefined read data are inverted.
 // Side band: this memory does not use cfg_i and connects it to cfg_o, so that a simulation can check the whole path.
+// Latency: one clock. Cost: DEPTH x WIDTH bits.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stand-in for a single-port SRAM macro: one port that reads or writes, one clock. Swap for silicon.
+// Stand-in for a single-port SRAM macro: one port that reads or writes, one clock. Replace it for silicon.
 //
-// Read:   with en_i and not we_i, rdata_o shows the word one clock later and keeps it until the next access.
+// Read:   with en_i and not we_i, rdata_o has the word one clock later and holds it until the next access.
 // Write:  with en_i and we_i, wdata_i is stored at the clock edge; rdata_o is undefined afterwards.
-// What is undefined is X, so that a user that relies on it fails at once and synthesis is free to infer a bare
-// block RAM. Verilator has no X: there contents are random until written and undefined read data is the inverted
-// write data.
+// Undefined data are X, so that a module that relies on them fails at once, and synthesis is free to infer a block RAM
+// without extra logic. Verilator has no X: contents are random until written, and undefined read data are the inverted write data.
 // Side band: this memory does not use cfg_i and connects it to cfg_o, so that a simulation can check the whole path.
+// Latency: one clock. Cost: DEPTH x WIDTH bits.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clock gate for FPGAs: none. A gated clock would leave the global clock tree, and what rests does so without it, too. A
-// module of the same ports as the one in technology/behavioural, which it takes the place of. Where the gate is needed (dtof_subsystem
-// with CLOCK_WAITS = 1), elaboration stops: use CLOCK_WAITS = 0, or put the family's clock buffer with an enable here (BUFGCE of
-// AMD, DCCA of Lattice's ECP5).
+// Replacement of the clock gate for FPGAs: no gate, because a gated clock would leave the global clock tree. Registers that hold do so
+// without the gate, too. The ports are those of technology/behavioural/dtof_clock_gate.sv. If the gate is needed (dtof_subsystem
+// with CLOCK_WAITS = 1), elaboration stops: use CLOCK_WAITS = 0, or instantiate the family's clock buffer with an enable here (BUFGCE
+// of AMD, DCCA of Lattice's ECP5).
+// Latency: none. Cost: none.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module dtof_clock_gate #(
-    parameter int NEEDED = 0  // 1: what the clock drives is wrong without the gate; 0: the gate saves power, and nothing else
+    parameter int NEEDED = 0  // 1: the logic behind the gate fails without the gate; 0: the gate only saves power
 ) (
     input  logic clk_i,
     input  logic enable_i,

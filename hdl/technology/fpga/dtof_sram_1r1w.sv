@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two-port memory for FPGAs: one read and one write port, one clock, in block RAM. A module of the same contract as the one
-// in technology/behavioural, which it takes the place of.
+// Two-port memory for FPGAs: one read and one write port, one clock, in block RAM. It replaces the module in technology/behavioural and
+// has the same contract.
 //
-// Read:   rdata_o shows the word one clock after re_i and keeps it until the next read.
+// Read:   rdata_o has the word one clock after re_i and holds it until the next read.
 // Write:  wdata_i is stored at the clock edge that ends a clock with we_i.
-// Read and write of one address in one clock: the word is written, the read data is undefined. It is X here, so that a tool
-// needs no logic around the block RAM whatever that does then.
+// Read and write of one address in one clock: the word is written, the read data are undefined. They are X here, so that a tool
+// needs no extra logic, whatever its block RAM returns.
 // Side band: this memory does not use cfg_i and connects it to cfg_o, so that a simulation can check the whole path.
+// Latency: one clock. Cost: DEPTH x WIDTH bits of block RAM.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Single-port memory for FPGAs: one port that reads or writes, one clock, in block RAM. A module of the same contract as the
-// one in technology/behavioural, which it takes the place of.
+// Single-port memory for FPGAs: one port that reads or writes, one clock, in block RAM. It replaces the module in technology/behavioural
+// and has the same contract.
 //
-// Read:   with en_i and not we_i, rdata_o shows the word one clock later and keeps it until the next access.
+// Read:   with en_i and not we_i, rdata_o has the word one clock later and holds it until the next access.
 // Write:  with en_i and we_i, wdata_i is stored at the clock edge; rdata_o is undefined afterwards. It is X here, so that a
-// tool needs no logic around the block RAM whatever that does then.
+// tool needs no extra logic, whatever its block RAM returns.
 // Side band: this memory does not use cfg_i and connects it to cfg_o, so that a simulation can check the whole path.
+// Latency: one clock. Cost: DEPTH x WIDTH bits of block RAM.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
