@@ -71,8 +71,8 @@ class Results:
         """What the table's accuracy was measured on: the page's line that names the scene."""
         page = (self.root / "reports" / ("frames.md" if self.sensors else "frame/summary.md")).read_text(encoding="utf-8")
         scene = next(line for line in page.splitlines() if line.startswith("Scene "))
-        return (f"\"Pixels off by > 3 %\" have a relative error above 3 %. {scene.removesuffix('.')}. Each read-out's look-up table, which is measured on flat targets, "
-                "corrects the distances.")
+        return (f"\"Pixels off by > 3 %\" have a relative error above 3 %. {scene.removesuffix('.')}. Each read-out's look-up table, "
+                "which is measured on flat targets, corrects the distances.")
 
     def notes(self) -> list[str]:
         """What the columns of the table mean, and how their figures were measured."""
