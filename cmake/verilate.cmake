@@ -19,7 +19,7 @@
 # ReadoutParameters::defaults(); <read-out> is the command-line name. Verilator finds the modules by their names, and
 # runs again when a file that it read changes; a model is one C++ file.
 #
-#   dtof_rtl_models(<library> [BATCH n] [OPTIONS ...])
+#   dtof_rtl_models(<library> [SELDOM] [BATCH n] [OPTIONS ...])
 #
 #   dtof_verilate_named(readouts|waveforms|variants <top module> <library>)
 #
@@ -28,6 +28,8 @@
 # WRITABLE_SRAMS makes the SRAMs' contents writable from C++ (rtl/sram.hpp).
 #
 # NO_WAVEFORM leaves out what records waveforms, which takes longer to compile than the rest of a model.
+#
+# SELDOM: only programs outside of `all` link the library, so that `all` does not build the library either.
 #
 # BATCH compiles n models in one go: for many small models most of the compiler's time goes to common headers. The models of newer
 # versions of Verilator (5.032) have precompiled headers, of which a C++ file may have one: each of these models is compiled alone.
@@ -73,7 +75,7 @@ set(DTOF_VERILATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
 # What names parameters is compiled apart (<library>_registrations), so that an edit of models/dtof/core compiles no RTL.
 function(dtof_rtl_models library)
-  cmake_parse_arguments(P "" "BATCH" "OPTIONS" ${ARGN})
+  cmake_parse_arguments(P "SELDOM" "BATCH" "OPTIONS" ${ARGN})
   add_library(${library} OBJECT)
   target_include_directories(${library} PRIVATE ${PROJECT_SOURCE_DIR}/tb_cpp ${PROJECT_SOURCE_DIR}/models)
   target_compile_options(${library} PRIVATE ${P_OPTIONS} -w)
@@ -82,6 +84,7 @@ function(dtof_rtl_models library)
   target_link_libraries(${library}_registrations PRIVATE dtof_rtl dtof_subsystem)
   set_target_properties(${library}_registrations PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
   target_sources(${library} INTERFACE $<TARGET_OBJECTS:${library}_registrations>)
+  set_target_properties(${library} ${library}_registrations PROPERTIES EXCLUDE_FROM_ALL ${P_SELDOM})
   if(P_BATCH AND NOT DTOF_VERILATED_PCH)
     set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${P_BATCH})
   endif()

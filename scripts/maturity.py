@@ -16,20 +16,27 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGE = "docs/reference/maturity.md"
 TECHNOLOGY = "technology"  # its modules are stand-ins, which silicon replaces
 CHECKS_ALONE = "synthesis leaves it out"  # in the head of a module that has assertions and no circuit
-WITHOUT_NETLIST = ("subsystem",)  # folders of hdl/ that make synth does not read
+WITHOUT_NETLIST = {"subsystem"}  # folders of hdl/ that make synth does not read
+SHARED = "common"  # its modules are in a netlist only if a module of a folder that make synth reads uses them
+COMMENT = re.compile(r"//.*")
 
 HEAD = """# Maturity of the blocks
 
-Written by `scripts/maturity.py` from the list of RTL files, the list of proofs and the pages of the blocks.
+`scripts/maturity.py` writes this page from the list of RTL files, the list of proofs and the pages of the blocks. A *block* is an RTL
+module. A stage includes all stages below it.
 
-| stage | a block of this stage | command |
+| stage | evidence for a block of this stage | command |
 |---:|---|---|
-| 1 | is simulated beside its C++ model or a reference in Verilator | `make test` |
-| 2 | is stage 1, is simulated in four states in Icarus Verilog, and its netlist is timed with margins and simulated beside the RTL | `make sim-icarus`, `make synth`, `make sim-netlist` |
-| 3 | is stage 2, and it has a proof that planted bugs break | `make formal` |
-| 4 | is stage 3, and it was measured in silicon | none yet |
+| 1 | Verilator simulates the block, and its results equal those of the C++ model or of a reference | `make test` |
+| 2 | Icarus Verilog simulates the block with X; its netlist meets timing with margins, and is simulated beside the RTL | `make sim-icarus`, `make synth`, `make sim-netlist` |
+| 3 | a proof of the block, which fails with each planted bug | `make formal` |
+| 4 | measurements in silicon (no block yet) | none |
 
 """
+
+
+def counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
 @dataclass(frozen=True)
@@ -37,23 +44,24 @@ class Block:
     name: str
     folder: str  # of hdl/
     page: str  # under docs/reference/, empty if there is none
+    netlist: bool
     proofs: int
     bugs: int
 
     @property
     def stage(self) -> int:
-        if self.folder in WITHOUT_NETLIST:
+        if not self.netlist:
             return 1
         return 3 if self.proofs else 2
 
     @property
     def earned(self) -> str:
-        proof = f"{self.proofs} proof{'s' if self.proofs > 1 else ''}, {self.bugs} planted bugs" if self.proofs else "no proof of its own"
-        return f"{proof}; {'no netlist' if self.folder in WITHOUT_NETLIST else 'netlist timed and simulated'}"
+        proof = f"{counted(self.proofs, 'proof')}, {counted(self.bugs, 'planted bug')}" if self.proofs else "no proof of its own"
+        return f"{proof}; {'netlist timed and simulated' if self.netlist else 'no netlist'}"
 
 
 def proofs(root: Path) -> dict[str, tuple[int, int]]:
-    """By module: proofs and planted bugs."""
+    """Numbers of proofs and of planted bugs, by module."""
     found: dict[str, tuple[int, int]] = {}
     for proof in tomllib.loads((root / "formal/proofs.toml").read_text(encoding="utf-8"))["proof"]:
         for module in proof["module"].split(", "):
@@ -63,7 +71,7 @@ def proofs(root: Path) -> dict[str, tuple[int, int]]:
 
 
 def pages(root: Path) -> dict[str, str]:
-    """By module, the page that has its section."""
+    """Address of the section about a module, by module."""
     return {name: f"blocks/{path.name}#{name}" for path in sorted((root / "docs/reference/blocks").glob("*.md"))
             for name in re.findall(r"^## `(\w+)`$", path.read_text(encoding="utf-8"), re.MULTILINE)}
 
@@ -71,14 +79,16 @@ def pages(root: Path) -> dict[str, str]:
 def blocks(root: Path) -> list[Block]:
     """Modules of the file list in its order; packages, stand-ins and assertions are no blocks."""
     proved, described, found = proofs(root), pages(root), []
-    for line in (root / "hdl/dtof.f").read_text(encoding="utf-8").splitlines():
-        if not line.endswith(".sv") or line.startswith(("//", TECHNOLOGY)):
-            continue
-        text = (root / "hdl" / line).read_text(encoding="utf-8")
-        if CHECKS_ALONE in text:
+    files = [line for line in (root / "hdl/dtof.f").read_text(encoding="utf-8").splitlines() if line.endswith(".sv") and not line.startswith("//")]
+    texts = {file: (root / "hdl" / file).read_text(encoding="utf-8") for file in files}
+    words = {file: set(re.findall(r"\w+", COMMENT.sub("", text))) for file, text in texts.items()}
+    for file, text in texts.items():
+        folder = file.split("/")[0]
+        if folder == TECHNOLOGY or CHECKS_ALONE in text:
             continue
         for name in re.findall(r"^module (\w+)", text, re.MULTILINE):
-            found.append(Block(name, line.split("/")[0], described.get(name, ""), *proved.get(name, (0, 0))))
+            users = {other.split("/")[0] for other in files if other != file and name in words[other]} if folder == SHARED else {folder}
+            found.append(Block(name, folder, described.get(name, ""), not users <= WITHOUT_NETLIST, *proved.get(name, (0, 0))))
     unknown = proved.keys() - {block.name for block in found}
     if unknown:
         raise SystemExit(f"error: formal/proofs.toml proves '{min(unknown)}', which hdl/dtof.f does not have")
@@ -88,7 +98,7 @@ def blocks(root: Path) -> list[Block]:
 def text(found: list[Block]) -> str:
     count = {stage: sum(block.stage == stage for block in found) for stage in (1, 2, 3)}
     lines = [f"{len(found)} blocks: {count[3]} of stage 3, {count[2]} of stage 2, {count[1]} of stage 1.", "",
-             "| block | folder | stage | earned by |", "|---|---|---:|---|"]
+             "| block | folder | stage | evidence |", "|---|---|---:|---|"]
     for block in found:
         name = f"[`{block.name}`]({block.page})" if block.page else f"`{block.name}`"
         lines.append(f"| {name} | {block.folder} | {block.stage} | {block.earned} |")

@@ -37,6 +37,17 @@ class Stages(unittest.TestCase):
         self.assertIn("| [`a`](blocks/control.md#a) | control | 3 |", maturity.text(list(found.values())))
         self.assertIn("3 blocks: 1 of stage 3, 1 of stage 2, 1 of stage 1.", maturity.text(list(found.values())))
 
+    def test_a_shared_module_that_only_the_subsystem_uses_has_no_netlist(self) -> None:
+        (self.root / "hdl/common").mkdir()
+        for module in ("d", "e"):
+            (self.root / f"hdl/common/{module}.sv").write_text(f"module {module} (\n);\nendmodule\n")
+        with (self.root / "hdl/dtof.f").open("a") as files:
+            files.write("common/d.sv\ncommon/e.sv\n")
+        (self.root / "hdl/subsystem/c.sv").write_text("module c (\n);\n  d u_d ();\n  e u_e ();\nendmodule\n")
+        (self.root / "hdl/control/b.sv").write_text("module b (\n);\n  // d is not used\n  e u_e ();\nendmodule\n")
+        stages = {block.name: block.stage for block in maturity.blocks(self.root)}
+        self.assertEqual({name: stages[name] for name in "de"}, {"d": 1, "e": 2})
+
     def test_a_module_of_assertions_is_no_block(self) -> None:
         (self.root / "hdl/control/b.sv").write_text("// Rules; synthesis leaves it out.\nmodule b (\n);\nendmodule\n")
         self.assertEqual([block.name for block in maturity.blocks(self.root)], ["a", "c"])

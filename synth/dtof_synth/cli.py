@@ -12,11 +12,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from . import area_parts, batch, budgets, check, configuration, corner_ratios, estimate, estimate_points, gates, goals, growth, \
-    line_buffer, namings, part_costs, report, report_inputs, scene_power, signalled_clear, simulation, sram_kit, sram_report
+    line_buffer, namings, part_costs, report, report_inputs, scene_power, signalled_clear, simulation, sram_kit, sram_report, \
+    yosys_versions
 from . import technology as technologies
 from .configuration import Configuration
 from .errors import FlowError
-from .run import Result, Technology, flat
+from .run import TARGET_MHZ, Result, Technology, flat
 
 ROOT = Path(__file__).resolve().parents[2]
 BUDGETS = ROOT / "synth" / "budgets.csv"
@@ -184,6 +185,22 @@ def _namings(arguments: argparse.Namespace, named: dict[str, Configuration]) -> 
         report_inputs.record("namings")
         _say("reports/namings.md, reports/namings.csv written")
     return 0 if all(one.closes for one in found.values()) else 1
+
+
+def _versions(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """Two versions of Yosys side by side; 1 if a difference has no explanation, or an explanation no difference."""
+    own, other = yosys_versions.read(ROOT), yosys_versions.read(arguments.checkout)
+    found = yosys_versions.differences(own, other, 1e3 / TARGET_MHZ)
+    reasons = yosys_versions.explanations(ROOT / yosys_versions.EXPLANATIONS)
+    report_inputs.begin("synth-versions")
+    (ROOT / "reports" / "yosys_versions.md").write_text(yosys_versions.report(own, other, named, found, reasons), encoding="utf-8")
+    yosys_versions.write_csv(ROOT / "reports" / "yosys_versions.csv", own, other)
+    report_inputs.record("synth-versions")
+    open_points = yosys_versions.open_points(found, reasons)
+    for line in open_points:
+        _say(line)
+    _say("reports/yosys_versions.md, reports/yosys_versions.csv written")
+    return 1 if open_points else 0
 
 
 def _corners(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
@@ -359,6 +376,9 @@ def _parser() -> argparse.ArgumentParser:
     several = commands.add_parser("namings", help="area and slack over several namings of the same logic")
     several.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all but variants, with a report")
     several.set_defaults(action=_namings)
+    versions = commands.add_parser("versions", help="the results of make synth beside those of another checkout with another Yosys")
+    versions.add_argument("checkout", type=Path, help="the other checkout, in which make synth ran")
+    versions.set_defaults(action=_versions)
     others: tuple[tuple[str, Action, str], ...] = (
         ("sizes", _sizes, "write the list of SRAM sizes"), ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
         ("budgets", _budgets, "propose new budgets from the current state"), ("check", _check, "compare the generated library with others"))
