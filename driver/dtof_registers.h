@@ -262,7 +262,7 @@
 #define DTOF_RAW_ROWS_LAST_LSB 16
 #define DTOF_RAW_ROWS_LAST_MASK UINT32_C(0x0FFF0000)
 
-/* lines that arrived since reset and were ignored: too late after an underrun or a timeout, surplus lines of a long acquisition, or lines of a dropped acquisition; lines that FLUSH and ABORT remove do not count */
+/* ignored lines since reset: late lines after an underrun or a timeout, surplus lines of a long acquisition, lines of a dropped acquisition; without the lines that FLUSH and ABORT remove */
 #define DTOF_LOST_LINES UINT32_C(0x104)
 #define DTOF_LOST_LINES_VALUE_LSB 0
 #define DTOF_LOST_LINES_VALUE_MASK UINT32_C(0xFFFFFFFF)
@@ -304,7 +304,7 @@
 #define DTOF_PARITY_ERRORS_VALUE_LSB 0
 #define DTOF_PARITY_ERRORS_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* poolPointer: amount that decode subtracts from each of the 32 coarse bins, for light of cover glass and fog; valid at once, and only between frames: a write while STATUS.BUSY is a bus error */
+/* poolPointer: amount that decode subtracts from each of the 32 coarse bins, for light of cover glass and fog; valid at once; a write while STATUS.BUSY is a bus error */
 #define DTOF_TEMPLATE UINT32_C(0x124)
 #define DTOF_TEMPLATE_NUMBER 8
 #define DTOF_TEMPLATE_ENTRY0_LSB 0

@@ -14,7 +14,7 @@ git clone --quiet --local . "$tree"
 cd "$tree"
 cat "$files/readouts.toml" >> readouts.toml
 cp "$files/first_photon.cpp" models/dtof/readout/
-cp "$files/first_photon_column.sv" hdl/thesis/
+cp "$files/dtof_first_photon_column.sv" hdl/thesis/
 /usr/bin/python3 scripts/generate.py
 
 cmake -S . --preset release > build.log

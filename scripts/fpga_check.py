@@ -134,11 +134,11 @@ def report(rows: dict[str, dict[str, Counts]], expected: dict[str, list[str]], t
     lines = [
         "# FPGA",
         "",
-        f"From `make fpga-check`: `dtof_subsystem` with {size} and CLOCK_WAITS = 0 around every read-out, registers, line buffer and result "
-        "stream included,",
+        f"From `make fpga-check`: `dtof_subsystem` with {size} and CLOCK_WAITS = 0, with each read-out, its registers, line buffer and result "
+        "stream,",
         "mapped by Yosys; nothing is placed or routed. Memories are those of `hdl/technology/fpga`. Every memory became "
         "block RAM in every",
-        "family. Look-up tables include those that carry chains take; registers are flip-flops.",
+        "family. Look-up tables include those of carry chains.",
         "",
         "| read-out | memories | " + " | ".join(
             f"{family.title}: block RAMs | look-up tables | flip-flops" for family in FAMILIES.values()) + " |",

@@ -317,13 +317,13 @@ def dominated(point: Point, points: list[Point], light: str) -> bool:
 def report(points: list[Point], missing: list[str], scenes: Scenes, references: References) -> str:
     lines = [
         "# Area against accuracy", "",
-        "Written by `make pareto`: areas of 200 columns of 160 pixels from [area.csv](area.csv) (`make synth`), "
-        "accuracies from [scenes.csv](scenes.csv) and [scenes_variants.csv](scenes_variants.csv) (`make scenes`), "
-        f"preset `{PRESET}`, all scenes but the flats together: {', '.join(scenes.names(flats=False))}. Variants that "
-        "change results were read on fewer columns of each.", "",
+        "Written by `make pareto`. Areas: 200 columns of 160 pixels, from [area.csv](area.csv) (`make synth`). "
+        "Accuracies: from [scenes.csv](scenes.csv) and [scenes_variants.csv](scenes_variants.csv) (`make scenes`), "
+        f"preset `{PRESET}`, over all scenes except flat targets: {', '.join(scenes.names(flats=False))}. For variants that "
+        "change results, fewer columns of each scene were read.", "",
         "![Pixels off by more than 3 %](pareto.svg)", "", "![Relative rmse](pareto_rmse.svg)", "",
-        "Large marks: read-outs, small ones: their variants, crosses: the area that the thesis gives (Table 5) at the accuracy "
-        "measured here. Front: nothing is both smaller and better (above 3 %).", ""]
+        "Large marks: read-outs. Small marks: their variants. Crosses: the area that the thesis states (Table 5), at the accuracy "
+        "measured here. A row is on the front if no other row has a smaller area and fewer pixels above 3 %.", ""]
     if missing:
         lines += [f"**Missing** (no area or no accuracy yet): {', '.join(missing)}.", ""]
     lines += ["| read-out | mm2 | thesis mm2 | bits a pixel | indoor: above 3 %, % | rmse, % | front | outdoor: above 3 %, % "

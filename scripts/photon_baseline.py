@@ -98,12 +98,12 @@ def rows_of(runs, baselines):
 
 def report(runs, baselines):
     lines = ["# Photon models: speed beside NumPy", "",
-             "A frame of the benchmark's plane (200 x 160 pixels, 3,333 acquisitions, 14 klux) by the clock on the wall, detections per "
-             "second, and these as multiples of two vectorised NumPy scripts that do the work of the exact model: one draws every "
-             "acquisition, as the model is defined, the other spreads a frame's events over its acquisitions. `exact` and `fast_stream` "
-             "draw streams, `fast_sampler` what a read-out asks for, `frame` photons and hisPointer's model together; `a core`: "
-             "processor time, `all`: the threads of a run together. Everything was measured in one run on one machine, whatever else "
-             "it did: compare the ratios. Command: `make photon-bench`", "",
+             "Wall-clock time of a frame of the benchmark's plane (200 x 160 pixels, 3,333 acquisitions, 14 klux), detections per "
+             "second, and the speed as a multiple of two vectorised NumPy scripts. Both scripts do the work of the exact model. One "
+             "draws every acquisition, as the model is defined; the other draws a frame's events and spreads them over the acquisitions.", "",
+             "`exact` and `fast_stream` draw streams, `fast_sampler` only the photons that a read-out requests, `frame` also runs "
+             "hisPointer's model. `a core`: processor time; `all`: all threads of a run together. All figures are from one run on one "
+             "machine, which may have done other work: compare the ratios. Command: `make photon-bench`", "",
              "| what | frame, ms | million detections/s | " + " | ".join(f"x {name}" for name in baselines) + " |",
              "|---|--:|--:|" + "--:|" * len(baselines)]
     for label, milliseconds, rate in rows_of(runs, baselines):

@@ -33,19 +33,19 @@ class Part:
 
 
 PARTS = (
-    Part("quad", "u_timestamp_input", "which timestamps are detections, and the registers in which they wait"),
-    Part("quad", "u_label_match", "track: which candidates a timestamp is near"),
+    Part("quad", "u_timestamp_input", "selects the detections among the timestamps, and delays them"),
+    Part("quad", "u_label_match", "track: finds the candidates near a timestamp"),
     Part("quad", "u_track_update", "track: scores, leader, its offset",
          (("an offset of 2 bits instead of 6", "OFFSET_BITS=2"),)),
     Part("quad", "u_pixel_distance", "track and point: distances to the leader and the rival"),
     Part("quad", "u_pointer_update", "point: moves and the advantage"),
-    Part("quad", "u_column", "timestamps: which one counts"),
+    Part("quad", "u_column", "selects the timestamp that counts"),
     Part("quad", "u_pixel_update", "track and point: registers between distance and next word"),
-    Part("quad", "", "coarse histogram, words of the SRAM, whose turn it is"),
+    Part("quad", "", "coarse histogram, words of the SRAM, turns of the columns"),
     Part("quad", "SRAM", "pixels and groups"),
     Part("engine", "u_candidate_decoder", "decode: candidates from five groups' histograms",
-         (("the four groups around (weight 64 for the own)", "OWN_WEIGHT=64"), ("the cost of later candidates", "LABEL_COST_SLOPE=0"))),
-    Part("engine", "u_beside_evidence", "choose: what the columns beside say",
+         (("the four neighbouring groups (weight 64 for the own group)", "OWN_WEIGHT=64"), ("the cost of later candidates", "LABEL_COST_SLOPE=0"))),
+    Part("engine", "u_beside_evidence", "choose: evidence of the neighbouring columns",
          (("the left column", "LEFT_COST=0,LEFT_COST_SLOPE=0"), ("the right column", "RIGHT_LIMIT=0,RIGHT_LIMIT_SLOPE=0"),
           ("both", "LEFT_COST=0,LEFT_COST_SLOPE=0,RIGHT_LIMIT=0,RIGHT_LIMIT_SLOPE=0"))),
     Part("engine", "u_choose", "choose: the chain along the column",
@@ -92,11 +92,11 @@ def accuracy_rows() -> list[tuple[str, str, str]]:
 def report(found: dict[tuple[str, str], dict[str, float]], shares: dict[tuple[str, str], tuple[float, float]], seed: int) -> str:
     total = {name: sum(figures[name] for figures in found.values()) for name in ("area_um2", "day_mw", "dusk_mw")}
     lines = ["# What the parts of poolPointer cost and bring", "",
-             f"Written by `make pool-parts`, seed {seed}. Area and power while acquisitions stream in, of the whole array of 200 columns: "
-             "an engine and the four columns of an SRAM mapped with their modules kept, simulated on the scene `room` by day (50 klux) and "
-             "at dusk (2 klux) as in [power.md](power.md). Logic is not shared across the modules' borders, and trees, repeaters, "
-             "hold buffers, border registers and control are not in it, so that the sum is another than "
-             "[area.md](area.md)'s; it compares parts.", "",
+             f"Written by `make pool-parts`, seed {seed}. Area and power are for the whole array of 200 columns, while acquisitions "
+             "stream in. An engine and the four columns of an SRAM are synthesised with their modules kept apart, and simulated on the "
+             "scene `room` by day (50 klux) and at dusk (2 klux), as in [power.md](power.md). Use the figures to compare parts. Their sum "
+             "differs from [area.md](area.md): modules share no logic, and trees, repeaters, hold buffers, border registers and control "
+             "are left out.", "",
              "| part | does | um2 | share | mW, day | mW, dusk |", "|---|---|---:|---:|---:|---:|"]
     for part in PARTS:
         figures = found.get((part.block, part.instance))
@@ -104,8 +104,8 @@ def report(found: dict[tuple[str, str], dict[str, float]], shares: dict[tuple[st
             lines.append(f"| {part.block}: {part.instance.removeprefix('u_') or 'the rest'} | {part.does} | {figures['area_um2']:.0f} | "
                          f"{figures['area_um2'] / total['area_um2']:.1%} | {figures['day_mw']:.1f} | {figures['dusk_mw']:.1f} |")
     lines += [f"| sum | | {total['area_um2']:.0f} | | {total['day_mw']:.1f} | {total['dusk_mw']:.1f} |", "",
-              f"Pixels above 3 % / above 10 %, in %, with a part's effect taken away: scenes {', '.join(SCENES)}, sensor thesis, "
-              f"{SEEDS} seeds, no look-up table, S1 on but where it is named.", "",
+              f"Pixels above 3 % / above 10 %, in %, if a part has no effect: scenes {', '.join(SCENES)}, sensor thesis, "
+              f"{SEEDS} seeds, no look-up table; S1 is on, except in its own row.", "",
               "| part | without | " + " | ".join(f"{klux} klux" for klux in LIGHTS) + " |", "|---|---|" + "---:|" * len(LIGHTS)]
     for part, what, estimator in accuracy_rows():
         cells = (f"{100 * above_3:.2f} / {100 * above_10:.2f}" for above_3, above_10 in (shares[estimator, klux] for klux in LIGHTS))

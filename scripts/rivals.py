@@ -214,11 +214,11 @@ def table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
 def cost_section(lights: dict[str, list[Point]]) -> str:
     beside = rival_area.beside_synthesis(AREA, ROOT / "configurations.toml")
     ratios = [entry.estimated_mm2 / entry.synthesised_mm2 for entry in beside]
-    text = [f"## Area and host work\n\nmm2 of {COLUMNS} x {ROWS} pixels. Read-outs: as synthesised (reports/area.md). Rivals: "
-            "an estimate, the SRAM model and a stated rule for logic (synth/dtof_synth/rival_area.py) that counts neither "
-            "control nor pipelines of their own. The same rule on the thesis's read-outs gives "
-            f"{min(ratios):.2f} to {max(ratios):.2f} times their synthesised area. Host: multiply-adds and comparisons per "
-            "pixel beside the look-up table that all have, 1 standing for none. Bold: no row with as little area has fewer "
+    text = [f"## Area and host work\n\nmm2: area of {COLUMNS} x {ROWS} pixels. For the project's read-outs it is the synthesised area "
+            "(reports/area.md). For rivals it is an estimate from the SRAM model and a rule for logic "
+            "(synth/dtof_synth/rival_area.py); control and pipelines of rivals are not counted. For the thesis's read-outs, this rule gives "
+            f"{min(ratios):.2f} to {max(ratios):.2f} times the synthesised area. Host operations: multiply-adds and comparisons per "
+            "pixel, without the look-up table that every read-out needs; 1 stands for none. Bold: no row with at most this area has fewer "
             "errors.\n\n" + table(("read-out", "estimated mm2", "synthesised mm2", "ratio"),
                                   ((entry.title, f"{entry.estimated_mm2:.2f}", f"{entry.synthesised_mm2:.2f}",
                                     f"{entry.estimated_mm2 / entry.synthesised_mm2:.2f}") for entry in beside))]
@@ -255,12 +255,12 @@ def sensor_section(sensors: dict[str, dict[str, list[Point]]]) -> str:
             rows.append((title, f"{name}, {klux} klux", *cells))
     limits = [f"at most {budget:g} mm2" if math.isfinite(budget) else "any area" for budget in BUDGETS]
     ranking = sorted(chosen.items(), key=lambda entry: -entry[1])
-    return ("## Which read-out for which sensor\n\nOf everything within an area (that of the thesis's array, 32,000 pixels, "
-            "whatever the sensor's own number), the one with the fewest pixels above 3 %, in per cent with half of the interval, "
-            "all scenes but the flats. \"pooled\": by the host. Sensors: `studies/rivals/`, the "
-            "presets; scenes scaled to their ranges.\n\n" + table(("sensor", "light", *limits), rows)
-            + f"\nOf {sum(chosen.values())} cells: "
-            + ", ".join(f"{title} has {count}" for title, count in ranking) + ".\n")
+    return ("## Which read-out for which sensor\n\nEach cell has the read-out with the fewest pixels above 3 % within a limit of area, "
+            "and its share in per cent +- half of the interval, over all scenes except flat targets. The area is that of the thesis's "
+            "array of 32,000 pixels, whatever the sensor's size. \"pooled\": the host pools the pixels. The sensors are those of "
+            "`studies/rivals/` and the presets; the scenes are scaled to the sensors' ranges.\n\n" + table(("sensor", "light", *limits), rows)
+            + f"\nNumber of cells, {sum(chosen.values())} in all: "
+            + ", ".join(f"{title} {count}" for title, count in ranking) + ".\n")
 
 
 def folder_of(sensor: Sensor) -> str:

@@ -232,14 +232,15 @@ def main() -> int:
     limit = ARRAY_MM2["poolpointer"]
     BUILD.mkdir(parents=True, exist_ok=True)
     plot(schedules, candidates, limit, WRITTEN / "trade.svg")
-    lines = ["# Goals of poolPointer that collide", "",
-             f"Written by `make trade`: preset `thesis`, seed {SEED}, {COLUMNS} columns of the scenes "
-             f"{', '.join(SCENES[1:])} ({SINGLE_COLUMNS} of isolated for the single pixels), 14 and 50 klux; areas of "
+    lines = ["# Trade-offs of poolPointer", "",
+             f"Written by `make trade`: preset `thesis`, seed {SEED}, 14 and 50 klux, {COLUMNS} columns of the scenes "
+             f"{', '.join(SCENES[1:])}; for single pixels {SINGLE_COLUMNS} columns of isolated. The areas come from "
              "`make synth-growth`.", "", "![trade](trade.svg)", "", "## Shares of the frame", "",
-             "64ths of the acquisitions in the coarse and the track phase; registers, no area. "
+             "Labels: shares of the coarse phase and of the track phase, in 64ths of the acquisitions. Both are registers, so they "
+             "do not change the area. "
              + schedule_sentence(schedules), "",
              *table("coarse/track", schedules, with_area=False), "", "## Candidates of a group", "",
-             f"Number and bits of a score; {base['LABELS']}x{base['SCORE_BITS']} is the product. "
+             f"Labels: number of candidates x bits of a score; {base['LABELS']}x{base['SCORE_BITS']} is poolPointer's default. "
              + candidate_sentence(candidates), "",
              *table("candidates", candidates, with_area=True), ""]
     (WRITTEN / "trade.md").write_text("\n".join(lines), encoding="utf-8")

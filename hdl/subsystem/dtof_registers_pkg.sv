@@ -296,7 +296,7 @@ package dtof_registers_pkg;
   localparam int RAW_ROWS_LAST_LSB = 16;
   localparam int RAW_ROWS_LAST_WIDTH = 12;
 
-  // lines that arrived since reset and were ignored: too late after an underrun or a timeout, surplus lines of a long acquisition, or lines of a dropped acquisition; lines that FLUSH and ABORT remove do not count
+  // ignored lines since reset: late lines after an underrun or a timeout, surplus lines of a long acquisition, lines of a dropped acquisition; without the lines that FLUSH and ABORT remove
   localparam logic [11:0] LOST_LINES = 12'h104;
   localparam logic [31:0] LOST_LINES_RESET = 32'h00000000;
   localparam int LOST_LINES_VALUE_LSB = 0;
@@ -346,7 +346,7 @@ package dtof_registers_pkg;
   localparam int PARITY_ERRORS_VALUE_LSB = 0;
   localparam int PARITY_ERRORS_VALUE_WIDTH = 32;
 
-  // poolPointer: amount that decode subtracts from each of the 32 coarse bins, for light of cover glass and fog; valid at once, and only between frames: a write while STATUS.BUSY is a bus error
+  // poolPointer: amount that decode subtracts from each of the 32 coarse bins, for light of cover glass and fog; valid at once; a write while STATUS.BUSY is a bus error
   localparam logic [11:0] TEMPLATE = 12'h124;
   localparam int TEMPLATE_NUMBER = 8;
   localparam logic [31:0] TEMPLATE_RESET = 32'h00000000;

@@ -139,15 +139,15 @@ def interval(row: dict[str, str], name: str) -> Value:
 
 
 PLOTS: tuple[tuple[Plot, Callable[[Path, Titles], Iterator[Row]]], ...] = (
-    (Plot("area", "Area against accuracy", "All scenes but the flat targets, sensor thesis. Small marks are variants of a read-out.",
+    (Plot("area", "Area against accuracy", "All scenes except flat targets, sensor thesis. Small marks are variants of a read-out.",
           "pareto", "pareto.csv", "points", "area of 200 x 160 pixels, mm2", (ABOVE_3, RMSE), "pareto.svg"), area),
     (Plot("light", "Errors over light", "Each read-out on one scene, from dusk to bright sun.",
           "scenes", "scenes.csv", "lines", "klux", (ABOVE_3, ABOVE_10, RMSE)), scenes),
-    (Plot("hostile", "Hostile conditions", "Glass, fog, other lasers, motion and skew; bars are intervals at 95 %. \"told\": with what "
-          "a user sets who knows the sensor and what is around it.",
+    (Plot("hostile", "Hostile conditions", "Glass, fog, other lasers, motion and skew; bars are intervals at 95 %. \"told\": the user has "
+          "set the read-out's parameters for the sensor and its surroundings.",
           "hostile_scenes", "data/hostile_scenes.csv.gz", "rows", "", (ABOVE_3, ABOVE_10)), hostile),
-    (Plot("acquisitions", "Errors over acquisitions", "Does a longer frame, or more light, make a read-out worse? Signal in parts of "
-          "the thesis's.",
+    (Plot("acquisitions", "Errors over acquisitions", "Does a longer frame, or more light, make a read-out worse? The signal is a "
+          "multiple of the thesis's signal.",
           "dynamic_range", "data/dynamic_range.csv.gz", "lines", "acquisitions of a frame", (ABOVE_3, ABOVE_10)), dynamic_range),
 )
 

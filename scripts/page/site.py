@@ -192,9 +192,9 @@ class Site:
             parts.append(f"<tr><th>{html.escape(one.title)}</th>" + "".join(f"<td>{html.escape(value)}</td>"
                                                                             for value in values) + "</tr>")
         results = render.relative(RESULTS, page) if page != RESULTS else ""
-        parts.append('</tbody></table></div>\n<p>Accuracy: this frame, after each read-out\'s look-up table. Area and memory: <a '
+        parts.append('</tbody></table></div>\n<p>Accuracy: this frame, with distances corrected by each read-out\'s look-up table. Area and memory: <a '
                      f'href="{results}#area">the array</a>. Power: <a href="{results}#power">the array</a> while acquisitions of the '
-                     "room at 50 klux stream in (day), not of this frame.</p>")
+                     "room at 50 klux stream in (day), which is another light than this frame's.</p>")
         return "\n".join(parts)
 
     def frame(self) -> str:
@@ -243,8 +243,8 @@ class Site:
         return "\n".join(lines) + "</tbody></table></div></section>"
 
     def commands_table(self) -> str:
-        lines = ["<h1>Commands</h1>", "<p>Run in the project's folder; each says more at the head "
-                 'of its makefile.</p>', '<div class="scroll" tabindex="0"><table class="commands"><thead><tr><th>command</th><th>what it '
+        lines = ["<h1>Commands</h1>", "<p>Run the commands in the project's folder. The comment at the head "
+                 'of each makefile says more.</p>', '<div class="scroll" tabindex="0"><table class="commands"><thead><tr><th>command</th><th>what it '
                  "does</th><th>where</th></tr></thead><tbody>"]
         for target in sorted(self.commands):
             command = self.commands[target]
@@ -272,9 +272,9 @@ class Site:
         body = [f"<h1>{NAME}</h1>", f'<div class="lead">{render.to_html(start.about(text), link)}</div>', start.cards(found),
                 self.first_picture(page),
                 '<section id="figures"><h2>One scene through every read-out</h2>', self.frame_figures(page),
-                f'<p><a href="{RESULTS}">All results</a>: each with the command that made it.</p></section>']
+                f'<p><a href="{RESULTS}">All results</a>, each with the command that made it.</p></section>']
         for door in found:
-            browser = f'<p><a href="{PLAYGROUND}">In the browser</a>: a scene, its light and the read-outs to choose; nothing to install.</p>' \
+            browser = f'<p><a href="{PLAYGROUND}">In the browser</a>: choose a scene, its light and the read-outs; nothing to install.</p>' \
                 if door.title == "Try it" and self.playground.is_file() else ""
             body.append(f'<section id="{door.anchor}"><h2>{html.escape(door.title)}</h2>{browser}{render.to_html(door.text, link)}'
                         f"{start.commands_table(door)}</section>")
@@ -290,10 +290,10 @@ class Site:
             return ""
         return (f'<section id="accuracy"><h2>{html.escape(plot.title)}</h2>{stale_lines(plot)}<a class="picture" href="{PLOTS}">'
                 f'<img src="{html.escape(self.copied(picture, page))}" alt="{html.escape(plot.title)}"></a>'
-                f'<p><a href="{PLOTS}">Plots</a>: each mark with its figure and its command, by read-out and light.</p></section>')
+                f'<p><a href="{PLOTS}">Plots</a> show each mark\'s figure and command; choose read-outs and light.</p></section>')
 
     def write_results(self) -> None:
-        body = ["<h1>Results</h1>", "<p>What the commands of this tree found. Every section names the command that made it.</p>",
+        body = ["<h1>Results</h1>", "<p>Results of this project's commands. Every section names the command that made it.</p>",
                 self.frame(), *(self.shown(report) for report in SHOWN), self.listed()]
         self.write_page(RESULTS, "Results", "\n".join(body), searched=False)
         self.write_page(COMMANDS, "Commands", self.commands_table())
@@ -303,10 +303,10 @@ class Site:
         live = self.library.script is not None
         body = ["<h1>Plots</h1>"]
         if live:
-            body += ["<p>The mouse, or a finger, over a mark shows the figure and the command that made it. Without lines, hollow marks "
-                     'are those of 50 klux.</p>', '<div class="filtered"><form id="filters" hidden></form><div>']
+            body += ["<p>Move the mouse over a mark, or touch the mark, to see its figure and the command that made it. In plots without "
+                     'lines, hollow marks are at 50 klux.</p>', '<div class="filtered"><form id="filters" hidden></form><div>']
         else:
-            body.append(f'<p class="missing">The plots of this page are not live, for it has no plotting library ({LIBRARY}): '
+            body.append(f'<p class="missing">The plots of this page are pictures, because the plotting library ({LIBRARY}) is missing: '
                         f"{html.escape(self.library.why_not)}.</p>")
         body += [self.plot(plot, live) for plot in self.plots]
         scripts: tuple[str, ...] = ()
@@ -315,7 +315,7 @@ class Site:
             shutil.copyfile(self.library.licence, self.out / LICENCE)
             shutil.copyfile(HERE / "plots.js", self.out / "plots.js")
             (self.out / plots.FILE).write_text(plots.as_script(self.plots, self.titles), encoding="utf-8")
-            body.append(f'</div></div><p class="made">Drawn by Chart.js, whose <a href="{LICENCE}">licence</a> is beside it.</p>')
+            body.append(f'</div></div><p class="made">Drawn by Chart.js (<a href="{LICENCE}">licence</a>).</p>')
             scripts = (LIBRARY, plots.FILE, "plots.js")
         self.write_page(PLOTS, "Plots", "\n".join(body), scripts=scripts)
 

@@ -40,9 +40,9 @@ class Descriptions(unittest.TestCase):
         self.assertIn("READOUT must be 0 to 9", generate.readout_range(table))
         self.assertIn("READOUT_HISTOGRAM, READOUT_COARSEHISTOGRAM, READOUT_FIRSTPHOTON: coarse_passes = 0;", generate.systemverilog(table))
         self.assertIn("READOUT_FIRSTPHOTON: is_word_moved = 1'b1;", generate.systemverilog(table))
-        self.assertIn("READOUT_FIRSTPHOTON: begin : g_first_photon\n          `DTOF_COLUMN(first_photon_column)",
+        self.assertIn("READOUT_FIRSTPHOTON: begin : g_first_photon\n          `DTOF_COLUMN(dtof_first_photon_column)",
                       generate.columns(table))
-        self.assertIn("thesis/first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
+        self.assertIn("thesis/dtof_first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
         self.assertIn("case Readout::kFirstPhoton:\n      return make_first_photon(parameters);",
                       generate.model_table(table))
         self.assertIn("partitioned_histogram coarse_histogram pool_pointer first_photon)", generate.cmake(table))

@@ -30,7 +30,7 @@ class PoolParts(unittest.TestCase):
                    for number, part in enumerate(pool_parts.PARTS)}
         shares = {(estimator, klux): (0.02, 0.01) for _, _, estimator in pool_parts.accuracy_rows() for klux in pool_parts.LIGHTS}
         text = pool_parts.report(figures, shares, 7)
-        self.assertIn("| quad: label_match | track: which candidates a timestamp is near | 20 |", text)
+        self.assertIn("| quad: label_match | track: finds the candidates near a timestamp | 20 |", text)
         self.assertIn(f"| sum | | {10 * sum(range(1, len(pool_parts.PARTS) + 1))} | | {len(pool_parts.PARTS):.1f} |", text)
         self.assertIn("| beside_evidence | the left column | 2.00 / 1.00 | 2.00 / 1.00 |", text)
         table = pool_parts.table_csv(figures, shares).splitlines()

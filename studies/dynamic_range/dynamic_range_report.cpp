@@ -285,13 +285,11 @@ std::string dynamic_range_report(const RangeSettings& settings, const DynamicRan
       "* More acquisitions made a pool read-out worse: {}.\n"
       "* More signal made a pool read-out worse: {}.\n"
       "* The coarse histogram is better than a pool read-out at {} acquisitions or more: {}.\n\n"
-      "An entry is a cell and a limit (errors above 3 %, above 10 %). Worse means that the two 95 % "
-      "intervals do not "
-      "overlap. A cell is compared with the best cell of fewer acquisitions, or of less signal, that is "
-      "otherwise equal. "
-      "By chance alone about one comparison in 350 of equal cells would be an entry; entries about pool "
-      "read-outs were "
-      "therefore measured again with other photons, and {} that did not show again {} left out.\n\n",
+      "An entry is a cell and a limit (errors above 3 %, above 10 %) at which a read-out is worse. "
+      "Worse means that the two 95 % intervals do not overlap. A cell is compared with the best cell "
+      "that has fewer acquisitions, or less signal, and is otherwise equal. By chance alone, about one "
+      "in 350 comparisons of equal cells would be an entry. Therefore entries about pool read-outs "
+      "were measured again with other photons, and {} that did not appear again {} left out.\n\n",
       settings.readouts.size(), std::ranges::min(settings.acquisitions),
       std::ranges::max(settings.acquisitions), std::ranges::min(settings.klux),
       std::ranges::max(settings.klux), std::ranges::min(settings.signals), std::ranges::max(settings.signals),
@@ -313,15 +311,12 @@ std::string dynamic_range_report(const RangeSettings& settings, const DynamicRan
   }
   report += fmt::format(
       "\n## How it was measured\n\n"
-      "Models, exact photons. Scenes {}: the {} columns and {} rows around the centre of the sensor's {} x "
-      "{} pixels; {} "
-      "columns, an engine of poolPointer, are judged. {} seeds from {} on; {} pixels a cell. Each read-out "
-      "has a look-up "
-      "table of its own for each cell (`frame/flat_calibration.hpp`, 32 pixels a distance). Intervals come "
-      "from the "
-      "spread of the seeds, and are at least Wilson's for independent pixels: pixels of a pool read-out hang "
-      "together, "
-      "seeds do not.\n\n"
+      "Models, exact photons. Scenes {}: the {} columns and {} rows around the centre of the sensor's "
+      "{} x {} pixels; {} columns, an engine of poolPointer, are judged. {} seeds from {} on; {} "
+      "pixels a cell. Each read-out has its own look-up table for each cell "
+      "(`frame/flat_calibration.hpp`, 32 pixels a distance). Intervals come from the spread of the "
+      "seeds, and are at least Wilson's for independent pixels. The pixels of a pool read-out depend "
+      "on each other, the seeds do not.\n\n"
       "Every cell of every read-out, with intervals: "
       "[data/dynamic_range.csv.gz](data/dynamic_range.csv.gz).\n\n"
       "Command: `{}`\n",

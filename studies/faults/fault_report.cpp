@@ -30,36 +30,35 @@ columns per engine) that see a part of the scene `room`, preset `thesis`, 14 klu
 Command: `{}`, seed {}.
 
 {}
-A fault is compared with the frame without it. A frame holds several faults, at most one per column (poolPointer: one per engine, whose columns hear each other;
-an SRAM that serves columns of two engines is heard by both),
-and a third of the columns (or engines) has none; "other columns" counts the pixels that changed there. A pixel is spoilt if its depth moved by more than 3 % of its distance. In brackets: 95 % intervals (shares of
-faults: Wilson's; means over faults: Student's).
+A frame with faults is compared with the same frame without faults. A frame has several faults, at most one per column. In poolPointer the columns
+of an engine depend on each other, so that a frame has at most one fault per engine; an SRAM that serves columns of two engines counts for both.
+A third of the columns (or engines) has no fault; "other columns" counts the pixels that changed there. A pixel is spoilt if its depth moved by
+more than 3 % of its distance. In brackets: 95 % intervals (shares of faults: Wilson's; means over faults: Student's).
 
 ## One flipped bit
 
-A random bit of a random word flips in a random clock of the frame. Many flips change nothing: the word is written
-before it is read again. Moves are those of the flips that move a depth, the farthest pixel of each. The engines'
-scratch memories hold something only while the engines work, which is a small part of a frame: "engines at work" are
-flips in those clocks only.
+A random bit of a random word flips in a random clock of the frame. Many flips change nothing, because the word is written
+before it is read again. Moves: for each flip that moves a depth, the largest move of a pixel. The engines' scratch memories are in use only
+while the engines work, which is a small part of a frame; "engines at work" are flips in this part only.
 
 {}
 ## A stuck column
 
 Stuck timestamps: every slot of every acquisition of the column carries one random code. Stuck bit: one random bit of
 every word of an SRAM reads the same for the whole frame. Within reach: the column's pixels; for an engine's scratch
-memory those of all its columns.
+memory the pixels of all its columns.
 
 {}
 ## A hot or dead pixel
 
-A hot pixel fires once more in every acquisition, at one random code or at random ones; its TDC keeps the first two
+A hot pixel fires one more time in every acquisition, always at the same random code or each time at another. Its TDC keeps the first two
 events of an acquisition. Others: the {} other pixels of its column.
 
 {}
 ## The frame after
 
-Right in every pixel: frames after one with faults, without a reset between, of a third of the acquisitions; and
-whole frames after a reset in random clocks of every state.
+Frames that are right in every pixel: frames of a third of the acquisitions that follow a frame with faults without a reset, and
+whole frames that follow a reset in a random clock of every state.
 
 {})";
 

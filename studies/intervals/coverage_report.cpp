@@ -209,12 +209,10 @@ std::string tables_section(const CoverageSettings& settings, const CoverageStudy
   }
   return fmt::format(
       "## What another calibration run would change\n\n"
-      "All figures after the table are those of calibration run {}: {} frames at every {:g} m. The same "
-      "frames "
-      "through the\ntables of {} other runs, and the spread of the figures over these tables, in standard "
-      "errors "
-      "reported with {} frames.\nThe intervals do not hold this spread: they speak of one calibrated "
-      "sensor.\n\n{}\n",
+      "All figures after the table are from calibration run {}: {} frames at every {:g} m. Here the "
+      "tables of {} other runs correct the same frames. The table shows the spread of the figures over "
+      "these tables, in standard errors reported with {} frames. The intervals do not include this "
+      "spread: they are for one calibrated sensor.\n\n{}\n",
       settings.study.calibration_seed, settings.study.calibration_frames, settings.study.calibration_step_m,
       settings.other_calibrations, study.tables.front().frames, table.markdown());
 }
@@ -258,16 +256,12 @@ std::string stopping_section(const CoverageSettings& settings, const CoverageStu
     all_failed += failed;
   }
   return fmt::format(
-      "## --precision: is the true error reached where it stops?\n\n"
-      "Each seed's frames are looked at after {}, twice, four times as many and so on, up to {}. Stopping "
-      "wants "
-      "both intervals\nwithin the precision, and either ten outliers or none in so many frames that they are "
-      "rarer "
-      "than {:g} %; then the figures\nare those without outliers. Right: the figure is as near the truth as "
-      "was "
-      "asked. A place and read-out fails where its\nseeds refute (at 95 %) that 95 % are right.\n\n{}\n{} of "
-      "{} "
-      "fail{}\n\n{}",
+      "## --precision: is the true error reached where it stops?\n\nThe figures of each seed are "
+      "judged after {}, twice, four times as many frames and so on, up to {}. A run stops when both "
+      "intervals are within the precision, and when the run has ten outliers, or none in so many "
+      "frames that outliers are rarer than {:g} %; the figures are then those without outliers. Right: "
+      "the figure is as near to the truth as requested. A place and read-out fails if its seeds refute "
+      "(at 95 %) that 95 % are right.\n\n{}\n{} of {} fail{}\n\n{}",
       settings.frames.front(), settings.frames.back(), settings.study.rare_outliers * 100.0, table.markdown(),
       all_failed, study.stopping.size(), all_failed == 0 ? "." : ":",
       all_failed == 0 ? std::string() : failures.markdown() + "\n");
@@ -288,25 +282,19 @@ std::string coverage_report(const CoverageSettings& settings, const CoverageStud
       study.cells, [](const CoverageCell& cell) { return cell.verdict != CoverageVerdict::kHolds; });
   return fmt::format(
              "# Do the intervals hold?\n\n"
-             "What `dtof-study accuracy` and `dtof-study reproduce` print as 95 % intervals, against what "
-             "repeated runs "
-             "show. {} seeds from\n{} on, {} frames each, at {} klux and {} m; photons are drawn once for "
-             "all "
-             "read-outs, and shorter runs are parts\nof the long ones ({} runs of {} frames). Preset {}, "
-             "calibration run {}. The truth is the figure over all {} frames.\n\n"
-             "A cell is one figure of one read-out at one place with one number of frames. It holds if the "
-             "spread "
-             "of the figure over\nruns is {:g} to {:g} times the mean standard error reported (a quarter of "
-             "the "
-             "interval's width, roughly). {} runs\nleave a ratio uncertain by about {:.0f} %: where theirs "
-             "lies "
-             "outside, {} runs drawn with replacement from all frames\nare judged. Where a handful of "
-             "outliers "
-             "makes the spread (more than half of the runs report fewer than ten, while\nall frames together "
-             "have "
-             "some), the spread says nothing, and the share of intervals that hold the truth must not refute "
-             "95 %.\nOf the cells whose intervals are right, the seeds' runs refute one in 40; there, too, "
-             "the runs drawn again decide.\n\n{}\n\n"
+             "Do the 95 % intervals that `dtof-study accuracy` and `dtof-study reproduce` print agree "
+             "with repeated runs? {} seeds from {} on, {} frames each, at {} klux and {} m. All "
+             "read-outs see the same photons. Shorter runs are parts of the long ones ({} runs of {} "
+             "frames). Preset {}, calibration run {}. The truth is the figure over all {} frames.\n\nA "
+             "cell is one figure of one read-out at one place with one number of frames. A cell holds "
+             "if the spread of the figure over runs is {:g} to {:g} times the mean of the reported "
+             "standard errors (about a quarter of the interval's width). {} runs leave this ratio "
+             "uncertain by about {:.0f} %. If their ratio lies outside, {} runs drawn with replacement "
+             "from all frames decide. If a few outliers make the spread (more than half of the runs "
+             "report fewer than ten outliers, but all frames together have some), the spread proves "
+             "nothing. The cell then holds if the share of intervals that hold the truth does not "
+             "refute 95 %. The seeds' runs refute one in 40 of the cells whose intervals are right; "
+             "for these cells, too, the drawn runs decide.\n\n{}\n\n"
              "Extremes over places and read-outs; in brackets the number of cells:\n\n{}\n"
              "The same for each read-out, over places and numbers of frames:\n\n{}\n",
              settings.seeds, settings.study.run.seed, settings.frames.back(), fmt::join(settings.klux, ", "),

@@ -180,18 +180,13 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
                       const std::vector<CheckedClaim>& claims) {
   const std::vector<RivalEntry> rivals = chosen_rivals(options.rivals);
   std::string report = fmt::format(
-      "# Read-outs and their rivals\n\nPer cent of pixels with a relative error above 3 % and above 10 %, "
-      "sensor {}, "
-      "seeds {} to {} (photons and random shapes), at most {} columns of a scene. All rows see the same "
-      "photons. +- is "
-      "half of the 95 % interval, from the spread of the seeds, at least that of independent pixels. Edges: "
-      "pixels with "
-      "a neighbour that differs by more than 10 %; single pixels: those unlike all their neighbours. Scenes "
-      "\"held\": no "
-      "parameter of poolPointer was chosen on them. Bits are those of the pixel's memory alone. "
-      "\"pooled\": "
-      "the host "
-      "lets the pixels of a column help each other. References have full histograms, which no chip could "
+      "# Read-outs and their rivals\n\nPer cent of pixels with a relative error above 3 % and above 10 "
+      "%, sensor {}, seeds {} to {} (photons and random shapes), at most {} columns of a scene. All "
+      "rows see the same photons. +- is half of the 95 % interval, from the spread of the seeds, and "
+      "at least that of independent pixels. Edges: pixels with a neighbour that differs by more than "
+      "10 %; single pixels: pixels that differ from all their neighbours. Scenes \"held\": no "
+      "parameter of poolPointer was chosen on them. Bits: the pixel's memory only. \"pooled\": the "
+      "host combines the pixels of a column. References have full histograms, which no chip could "
       "hold.\n\n{}\n\nCommand: `{}`\n",
       options.sensor, first_seed, options.seed, options.columns,
       table_sentence(parse_table_rule(options.table), sensor, first_seed), options.command_line);
@@ -209,14 +204,11 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
   report += "\n";
   if (!claims.empty()) {
     report += fmt::format(
-        "\n## Beside a first estimate\n\nFlat walls at {:g} klux, above 3 % / above 10 %. The first estimate "
-        "had {} pixels a "
-        "distance and counters without limits; here counters are as wide as stated, and there are {} pixels. "
-        "Both take "
-        "from all pixels of a distance what their median is off, in place of a look-up table, which is "
-        "generous to "
-        "rivals whose result does not grow with the distance. Agree: the 95 % intervals of both overlap. "
-        "{}\n\n{}",
+        "\n## Beside a first estimate\n\nFlat walls at {:g} klux, above 3 % / above 10 %. The first "
+        "estimate had {} pixels a distance and counters without limits; here counters are as wide as "
+        "stated, and there are {} pixels. Instead of a look-up table, both subtract the error of the "
+        "median over all pixels of a distance, which favours rivals whose result does not grow with "
+        "the distance. Agree: the 95 % intervals of both overlap. {}\n\n{}",
         kClaimKlux, kClaimedPixels, claims.front().at_3_m.pixels, claim_sentence(claims),
         claim_table(claims).markdown());
   }
@@ -224,9 +216,8 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
     report += fmt::format("\n## {:g} klux\n", klux);
     if (!scores.scenes_with_depth().empty()) {
       report += fmt::format(
-          "\n### All scenes but the flats together\n\n{}\n### Front\n\nRows that no other has fewer pixels "
-          "above 3 % than "
-          "with as few bits.\n\n{}",
+          "\n### All scenes but the flats together\n\n{}\n### Front\n\nA row is on the front if no "
+          "other row with as few bits has fewer pixels above 3 %.\n\n{}",
           overall_table(scores).markdown(), front_table(scores).markdown());
     }
     report +=

@@ -225,16 +225,13 @@ void run_scenes_command(const ScenesOptions& options) {
   }
   Table csv(header);
   std::string report = fmt::format(
-      "# Read-outs on scenes\n\nPer cent of pixels with a relative error above 3 % / above 10 %. Seed {}, at "
-      "most "
-      "{} columns of a scene.\n\"hisPointer pairs\" takes its "
-      "coarse "
-      "peak over pairs of adjacent bins; the matched filter has the full histogram and knows signal and "
-      "background. Edges: pixels with a "
-      "neighbour that differs by more than 10 %. Bound: Cramer-Rao bound of the pixel alone; the median of "
-      "|error| is\ndivided by a normal variable's. Scenes \"held\": no parameter of poolPointer was chosen "
-      "on "
-      "them.\n\nCommand: `{}`\n",
+      "# Read-outs on scenes\n\nPer cent of pixels with a relative error above 3 % / above 10 %. Seed "
+      "{}, at most {} columns of a scene. \"hisPointer pairs\" finds its coarse peak over pairs of "
+      "adjacent bins. The matched filter uses the full histogram and the true signal and background. "
+      "Edges: pixels with a neighbour that differs by more than 10 %. Bound: Cramer-Rao bound of a "
+      "single pixel; the table has the median of |error| / bound, divided by its value for a normal "
+      "variable (0.674). Scenes \"held\": no parameter of poolPointer was chosen on them.\n\nCommand: "
+      "`{}`\n",
       options.seed, options.columns, options.command_line);
   for (const std::string& note : lists.front().notes) {
     report += fmt::format("\n{}\n", note);

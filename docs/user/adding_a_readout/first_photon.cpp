@@ -4,7 +4,7 @@
 namespace dtof {
 namespace {
 
-/// The code of the first detection, and 1 as its confidence; both are 0 for a dark pixel.
+/// The result is the code of the first detection, with confidence 1; without a detection both are 0.
 class FirstPhotonPixel {
  public:
   explicit FirstPhotonPixel(const ReadoutParameters& parameters) : code_count_(parameters.code_count()) {}

@@ -2,21 +2,21 @@
 // First photon: the code of the first detection of the frame.
 //
 // 1. RESET sets every pixel's word {code, found} to zero.
-// 2. The first timestamp of a pixel that is a detection takes the word's place; later ones change nothing.
-// 3. In M4 the word is read, and is the result: found stands in the place of the confidence.
+// 2. The first detection of a pixel is stored in the word, with found = 1. Later detections change nothing.
+// 3. In M4 the word is read as the result. The bit found is the confidence.
 //
 //   clock     what happens
-//   T0        timestamp registered, gated
-//   T1        it becomes the word, or does not
-//   T2        written, behind a pixel's last slot
-//   S3 of M4  result loaded
+//   T0        the timestamp is registered and compared with the gate
+//   T1        the next word is computed: the timestamp or the old word
+//   T2        the word is written, after the pixel's last slot
+//   S3 of M4  the result is loaded
 //
 // Cost at the defaults: PIXELS_PER_SRAM x 11 bits, and little more than the registers of dtof_word_builder.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module first_photon_column #(
+module dtof_first_photon_column #(
     // parameters of a column: written by scripts/generate.py from scripts/templates/column_parameters.svh
     // end of parameters of a column
 ) (
@@ -76,7 +76,7 @@ module first_photon_column #(
       .word_o         (word)
   );
 
-  // No counters.
+  // This column has no counters.
   logic unused_next_counter_full;
   assign unused_next_counter_full = next_counter_full_i;
   assign counter_full_o = 1'b0;
