@@ -19,9 +19,9 @@ namespace dtof {
 /// last slot cost nothing. The only approximation: times are displaced by ArrivalTable::displacement.
 ///
 /// Sampler (`pixel_sampler`): draws the number of a measurement's detections, then their times from the
-/// distribution of kept events, only inside the requested window. A second approximation: detections do not
-/// share acquisitions. Pixels with more than 0.7 events per acquisition are drawn as their streams are,
-/// without this approximation.
+/// distribution of kept events, only inside the requested window. This ignores which detections share an
+/// acquisition, a second approximation. Pixels with more than 0.7 events per acquisition are drawn as their
+/// streams are, without it.
 class FastPhotonSource final : public SampledSource {
  public:
   /// Throws InputError unless supports().
