@@ -24,7 +24,6 @@ namespace dtof {
 /// If both the pulse's photons and the noise are unknown, the likelihood ratio of a pulse at t is (1 -
 /// rho^2)^(-d / 2), for rho > 0 and equal noise in all counters; d is the number of remaining dimensions. Its
 /// logarithm is the evidence.
-/// logarithm is the evidence.
 class CodeMatcher {
  public:
   /// `weights[x * counters + k]` is C[k][x] for the codes x = 0 .. 2^NP - 1; the last code is no detection.
