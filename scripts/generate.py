@@ -57,7 +57,7 @@ def translated(expression: Expression, name: Callable[[str], str], function: Cal
 
 
 def matching(text: str) -> int:
-    """Where the bracket closes with which the text begins."""
+    """Index of the bracket that closes the bracket at the beginning of the text."""
     depth = 0
     for i, letter in enumerate(text):
         depth += {"(": 1, ")": -1}.get(letter, 0)
@@ -67,7 +67,8 @@ def matching(text: str) -> int:
 
 
 def readout_range(table: Table) -> str:
-    """A file of its own, because dtof_array uses the sentence outside the compilation unit of dtof_pkg, too."""
+    """The file with the range of READOUT. It is a file of its own because dtof_array uses it outside the compilation unit of dtof_pkg,
+    too."""
     last = max(readout.number for readout in table.readouts.values() if readout.number is not None)
     return "\n".join([
         "// SPDX-License-Identifier: Apache-2.0",
@@ -86,7 +87,7 @@ def systemverilog(table: Table) -> str:
         expression, lambda name: own.get(name, name.lower()), lambda name: f"{name}_of")  # fmt: skip
 
     def choice(kind: str, name: str, arguments: str, values: dict[str, Expression], default: str) -> list[str]:
-        """A function of the read-out; read-outs of one value share a line."""
+        """A SystemVerilog function of the read-out. Read-outs with equal values share a line."""
         by_text: dict[str, list[str]] = {}
         for constant, expression in values.items():
             by_text.setdefault(translate(expression), []).append(constant)
@@ -158,18 +159,18 @@ def top_constant(top: Top) -> str:
 
 
 def subsystem_number(table: Table, readout: Readout) -> int | None:
-    """dtof_subsystem's READOUT for it."""
+    """Value of dtof_subsystem's READOUT for a read-out; None if the subsystem does not support it."""
     return readout.number if readout.number is not None else table.tops[readout.top].readout
 
 
 def subsystem_names(table: Table) -> list[str]:
-    """The parameters of dtof_subsystem: those of all arrays, and the schedules that a register recommends."""
+    """Parameters of dtof_subsystem: those of all arrays, and the recommended schedules, which a register shows."""
     return list(dict.fromkeys([*(name for top in table.tops.values() for name in top.parameters),
                                *(name for top in table.tops.values() for name in top.schedule)]))  # fmt: skip
 
 
 def subsystem_parameters(table: Table) -> list[str]:
-    """The parameters of dtof_subsystem: those of all tops, each with the default of the read-out that is chosen."""
+    """Declarations of dtof_subsystem's parameters: those of all tops, with the defaults of the chosen read-out."""
     translate = lambda expression: translated(expression, str, lambda name: f"dtof_pkg::{name}_of")  # noqa: E731
     tops = table.tops.values()
     lines = ["// verilator lint_off UNUSEDPARAM"]  # every array uses its own part
@@ -190,18 +191,18 @@ def subsystem_parameters(table: Table) -> list[str]:
 
 
 def connections(names: list[str]) -> list[str]:
-    """A module's parameters connected to those of the same names."""
+    """Connections of a module's parameters to parameters of the same names."""
     return [f".{name}({name})," for name in names[:-1]] + [f".{names[-1]}({names[-1]})"]
 
 
 def column_header(what: str, rule: str) -> list[str]:
-    """The parameters or the ports that all columns have; a column uses its own part."""
+    """Header with the parameters or ports common to all columns; each column uses some of them."""
     text = (ROOT / "scripts" / "templates" / f"column_{what}.svh").read_text(encoding="utf-8")
     return [f"// verilator lint_off {rule}", *text.split("\n\n", 1)[1].splitlines(), f"// verilator lint_on {rule}"]
 
 
 def inlined(name: str, text: str, lists: dict[str, list[str]]) -> str:
-    """A module with what is written between the marks of each list, as deep as the mark."""
+    """A module in which generated lists replace the text between their marks, with the marks' indentation."""
     for title, lines in lists.items():
         mark = re.compile(rf"^( +)// {title}: written by scripts/generate.py from \S+\n(?:.*\n)*?\1// end of {title}\n", re.MULTILINE)
         found = mark.findall(text)
@@ -216,7 +217,7 @@ def inlined(name: str, text: str, lists: dict[str, list[str]]) -> str:
 
 
 def modules(table: Table) -> dict[str, str]:
-    """The columns of dtof_array; dtof_subsystem, which has a time gate of its own for all arrays; and its bench."""
+    """Generated texts: the columns of dtof_array; dtof_subsystem, which has one time gate for all arrays; and its bench."""
     column = {"parameters of a column": column_header("parameters", "UNUSEDPARAM"),
               "ports of a column": column_header("ports", "UNUSEDSIGNAL")}  # fmt: skip
     arrays = {"parameters of the arrays": subsystem_parameters(table)}
@@ -446,7 +447,7 @@ def column_files(text: str, table: Table) -> str:
 
 
 def defaults(text: str, table: Table) -> str:
-    """The page of the parameters with a table of defaults for each top."""
+    """The page of parameters with a table of defaults for each top."""
     for top in table.tops.values():
         begin = PARAMETERS_BEGIN.format(top.name)
         if text.count(begin) != 1:
@@ -489,8 +490,7 @@ def studies_table(text: str) -> str:
 
 
 def check_top(name: str, text: str, table: Table) -> list[str]:
-    """What differs between a top module's own parameters and the table's: the module is a contract of its own, written by
-    hand."""
+    """Differences between the parameters of a top module, which is written by hand, and those of the table."""
     declared = re.findall(r"^    parameter int (\w+) = (\w+(?:::\w+)?),", text, re.MULTILINE)
     own = {parameter: value for parameter, value in declared if parameter != "READOUT"}
     np = int(table.parameters["NP"].default)

@@ -24,7 +24,7 @@ KEYS = {"name", "command", "table", "inputs", "batch", "seed_of", "axes"}
 
 
 class SweepError(Exception):
-    """Something is wrong with a sweep's description or files; the message says where and what."""
+    """An error in a sweep's description or files; the message says where and what."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Batch:
 
 @dataclass(frozen=True)
 class Sweep:
-    """Batches are made when they are asked for: a job needs its own alone, however many there are."""
+    """A sweep. Batches are made on request, since a job needs only its own."""
 
     name: str
     command: str
@@ -68,7 +68,7 @@ class Sweep:
         return -(-self.points // self.batch_size)
 
     def point(self, number: int) -> Point:
-        """The last axis changes first."""
+        """Point with this number; the last axis varies fastest."""
         found = []
         for axis, values in reversed(self.axes):
             number, index = divmod(number, len(values))
@@ -179,7 +179,7 @@ def load(path: Path, root: Path) -> Sweep:
 
 
 def batch_file(folder: Path, batch: Batch) -> Path:
-    """At most a thousand files of a description in a folder."""
+    """File of a batch; a folder has at most a thousand of them."""
     return folder / "batches" / f"{batch.number // 1000}" / f"{batch.number}_{batch.name}.json"
 
 
