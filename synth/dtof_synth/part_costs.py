@@ -36,7 +36,7 @@ class Part:
 
 
 def _instances(design: dict) -> dict[str, tuple[str, str]]:
-    """(block, instance) of every scope that activity.scopes_of knows, named before its instances are."""
+    """(block, instance) of every scope of activity.scopes_of; a scope comes before those inside it."""
     found: dict[str, tuple[str, str]] = {}
 
     def enter(module: dict, path: str, block: str) -> None:
@@ -56,7 +56,8 @@ def _instances(design: dict) -> dict[str, tuple[str, str]]:
 
 def measure(configuration: Configuration, technology: Technology, folder: Path, seed: int,
             say: Callable[[str], None]) -> list[Part]:
-    """Parts of the columns, then of the engine, by name; FlowError if the netlist is not its RTL or a step fails."""
+    """Area and power of the parts of the columns, then of the engine, by name. FlowError if the netlist differs from its RTL or a step
+    fails."""
     library = technology.typical
     group = liberty.read(library.path)
     internal = activity.internal_energies(group, library.energy_fj)
