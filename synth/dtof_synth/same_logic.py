@@ -24,7 +24,7 @@ Logic = dict[str, dict[str, tuple]]  # of each module: what its cells and output
 
 @dataclass(frozen=True)
 class _Reader:
-    """One module. `name_of`: what a cell was called when it was mapped."""
+    """Logic of one module. `name_of`: name of each cell when it was mapped."""
 
     module: Module
     library: Library
@@ -33,7 +33,7 @@ class _Reader:
     column: str
 
     def _original(self, cell: str) -> str:
-        """What a cell is a copy of, or itself."""
+        """The cell of which this cell is a copy, or the cell itself."""
         return re.sub(rf"{COPY_SUFFIX}\d+$", "", self.name_of(cell))
 
     def read(self) -> dict[str, tuple]:
@@ -80,8 +80,8 @@ def _called(names: Mapping[str, str]) -> Callable[[str], str]:
 
 
 def of(design: dict, library: Library, called: Mapping[str, Mapping[str, str]] | None = None) -> Logic:
-    """`called`: what the cells of each module were called when they were mapped, if they have other names now. FlowError if a
-    register's copy is none."""
+    """Logic of a design. `called`: names of each module's cells when they were mapped, if they have changed. FlowError if a copy of a
+    register differs from its original."""
     family = {kind: kinds[0] for kinds in library.drives for kind in kinds}
     column = netlist.column_module(design)
     logic: Logic = {}
@@ -92,7 +92,7 @@ def of(design: dict, library: Library, called: Mapping[str, Mapping[str, str]] |
 
 
 def check(mapped: Logic, finished: Logic) -> None:
-    """FlowError that names a difference."""
+    """FlowError that names the first difference, if there is one."""
     for module in sorted(mapped.keys() | finished.keys()):
         before, after = mapped.get(module, {}), finished.get(module, {})
         for name in sorted(before.keys() | after.keys()):

@@ -29,7 +29,7 @@ LOADS_PER_FF = 100  # a load cell's name has its capacitance, in hundredths of a
 
 @dataclass(frozen=True)
 class StandIn:
-    """`cut`: cell/pin or cell/pin[bit]."""
+    """A stand-in. `cut`: unconnected pins as cell/pin or cell/pin[bit]."""
 
     module: Module
     loads: dict[str, float]  # kind of load cell: fF
@@ -37,7 +37,7 @@ class StandIn:
 
 
 class _Borders:
-    """Which cells of a column stay."""
+    """Decides which cells of a column stay."""
 
     def __init__(self, module: Module, library: Library) -> None:
         self.module = module
@@ -65,12 +65,12 @@ class _Borders:
                 for bit in port["bits"] if isinstance(bit, int) and bit not in self.clocks]
 
     def ends_paths(self, name: str) -> bool:
-        """A register, a gate of the clock or a macro."""
+        """True for a register, a clock gate or a macro."""
         kind = self.module["cells"][name]["type"]
         return kind in self.library.sequential or kind in self.library.clock_pin_ff or kind not in self.library.area
 
     def drives(self, name: str | None) -> bool:
-        """Whether a cell stays with its outputs: a register that stays as the end of a path alone has none."""
+        """True if a cell keeps its outputs; a register that only ends a path does not."""
         return name is not None and name in self.kept and (not self.ends_paths(name) or name in self.launching)
 
     def _of(self, name: str, direction: str) -> Iterable[int]:
@@ -101,7 +101,7 @@ class _Borders:
         self.kept |= seen
 
     def _clocked(self) -> None:
-        """The gates of the clock in front of what stays."""
+        """Adds the clock gates in front of the cells that stay."""
         waiting = [bit for name in self.kept for bit in self._of(name, "input") if bit in self.clocks]
         while waiting:
             name = self.driver.get(waiting.pop())
@@ -141,7 +141,8 @@ def of(module: Module, library: Library, pin_load: Callable[[str, str], float]) 
 
 
 def _load_cells(missing: dict[int, list[float]], library: Library) -> tuple[dict[str, dict], dict[str, float]]:
-    """The cells in place of what is missing behind nets, and their kinds with the capacitance. `missing`: fF of each pin."""
+    """Load cells for the pins that are missing behind nets, and the kinds of load cells with their capacitance. `missing`: capacitances of
+    a net's missing pins, fF."""
     cells: dict[str, dict] = {}
     loads: dict[str, float] = {}
     for bit, pins in missing.items():
@@ -156,7 +157,7 @@ def _load_cells(missing: dict[int, list[float]], library: Library) -> tuple[dict
 
 
 def load_of(module: Module, library: Library, pin_load: Callable[[str, str], float]) -> StandIn:
-    """What a column is for the others: the load of its input ports, and no path."""
+    """A column reduced to the load of its input ports, without paths."""
     inputs = {bit for port in module["ports"].values() if port["direction"] == "input" for bit in port["bits"] if isinstance(bit, int)}
     nets = netlist.sinks_of(module, pin_load, 0.0)
     missing = {bit: [sink.load for sink in nets[bit]] for bit in sorted(inputs - netlist.clock_nets(module)) if bit in nets}
@@ -166,8 +167,8 @@ def load_of(module: Module, library: Library, pin_load: Callable[[str, str], flo
 
 def timed(design: dict, real: Iterable[str], library: Library, pin_load: Callable[[str, str], float],
           bordered: Iterable[str] | None = None) -> tuple[dict, StandIn]:
-    """The design with stand-ins for all columns but the real ones; where `bordered` names some, then for these, and mere loads for
-    the others. Modules and cells that do not change are shared with the design."""
+    """The design with stand-ins for all columns except `real`. With `bordered`, only these columns get stand-ins, the others mere loads.
+    Unchanged modules and cells are shared with the design."""
     kind = netlist.column_module(design)
     module = netlist.modules(design)[kind]
     stand_in, load = of(module, library, pin_load), load_of(module, library, pin_load)
