@@ -191,7 +191,7 @@ def c_header(whole: Map) -> str:
     lines = [
         "/* SPDX-License-Identifier: Apache-2.0",
         f" * {WRITTEN}",
-        " * Offsets in bytes; of each field the lowest bit and the mask of its bits at their place. */",
+        " * Register offsets are in bytes. Each field has its lowest bit (LSB) and the mask of its bits in the register. */",
         "#ifndef DTOF_REGISTERS_H",
         "#define DTOF_REGISTERS_H",
         "",
@@ -211,7 +211,7 @@ def c_header(whole: Map) -> str:
             lines.append(f"#define DTOF_{register.name}_NUMBER {register.number}")
         for field in register.fields:
             lines += field_lines(f"DTOF_{register.name}", field, REGISTER_BITS)
-    lines += ["", "/* X(offset, registers, value behind a reset, bits of it that no parameter decides) for each of them. */",
+    lines += ["", "/* X(offset, registers, value after a reset, bits of it that do not depend on parameters) for each register. */",
               "#define DTOF_FOR_EACH_REGISTER(X) \\"]  # fmt: skip
     for register in whole.registers:
         end = "" if register is whole.registers[-1] else " \\"
