@@ -66,8 +66,8 @@ struct SensorOptions {
   std::optional<double> coincidence_ns;
   std::string fidelity = "exact";
   double tolerance = 0.01;
-  /// Text and model of `sensor` after the first read, since it may be a pipe.
-  mutable std::optional<SensorModel> read_once = std::nullopt;
+  mutable std::optional<SensorModel> read_once =
+      std::nullopt;  ///< `sensor` after the first read, since it may be a pipe
 
   void add_to(CLI::App& command);
   /// Adds all options but --klux, for commands with several light levels.

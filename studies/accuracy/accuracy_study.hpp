@@ -21,8 +21,8 @@ struct AccuracyPoint {
   bool precision_reached = true;  ///< always true without `precision`
   Estimate relative_precision;    ///< Eq. 3.14, before the look-up table
   Estimate bias_m;                ///< mean error before the look-up table
-  /// Slope d(depth)/dR over the neighbouring distances, before the table; 1 = ideal.
-  std::optional<Estimate> slope;
+  std::optional<Estimate>
+      slope;        ///< d(depth)/dR over the neighbouring distances, before the table; 1 = ideal
   Estimate rmse_m;  ///< after the look-up table, as all following figures
   Estimate above_3_percent;
   Estimate outlier_rate;         ///< share of errors above 10 %

@@ -21,9 +21,9 @@ struct MapAccuracySettings {
   TargetMap targets{1, 1};
   double klux = 14.0;
   std::vector<ReadoutParameters> readouts;
-  /// Ascending, at least 2; band i is [edge i, edge i + 1), the last closed.
-  std::vector<double> band_edges_m;
-  int frames = 8;  ///< at least 4
+  std::vector<double>
+      band_edges_m;  ///< ascending, at least 2; band i is [edge i, edge i + 1), the last closed
+  int frames = 8;    ///< at least 4
   SourceFactory make_source = make_exact_source;
   RunSettings run;
   std::string command;  ///< command that reproduces a difference found by --verify

@@ -20,8 +20,7 @@ struct DetectionSettings {
   SensorModel sensor;
   std::vector<ReadoutParameters> readouts;
   std::vector<double> klux = {2.0, 14.0, 50.0, 100.0};
-  std::vector<double> sky_reflectivities = {0.5, 1.0,
-                                            2.0};  ///< brightness of the skies in sunlight, as a reflectivity
+  std::vector<double> sky_reflectivities = {0.5, 1.0, 2.0};  ///< brightness of a sky, as a reflectivity
   std::vector<double> distances_m = {2.0, 3.0, 4.0, 5.0};
   double wall_reflectivity = 0.5;
   double false_alarms = 1e-3;  ///< largest share of any sky's pixels that may pass

@@ -24,9 +24,8 @@ struct CoverageSettings {
   std::vector<double> distances_m;
   int seeds = 40;
   std::vector<int> frames = {100, 1000, 10'000};  ///< ascending, each a divisor of the last
-  std::vector<double> precisions = {
-      0.10, 0.05};             ///< values of --precision; runs are checked from frames.front() on
-  int other_calibrations = 8;  ///< calibration runs to compare with the named one
+  std::vector<double> precisions = {0.10, 0.05};  ///< of --precision; looks from frames.front() on
+  int other_calibrations = 8;                     ///< calibration runs to compare with the named one
   /// Use a separate table for each seed, which the intervals do not allow for. Shows that the study can fail.
   bool calibrate_each_seed = false;
 };
@@ -104,9 +103,8 @@ struct StoppingCell {
   /// Among the reached ones: relative precision as close to the true value as requested.
   std::uint64_t precision_right = 0;
   std::uint64_t rmse_right = 0;
-  double mean_frames = 0.0;  ///< among the reached ones: mean number of frames
-  double mean_rmse_error =
-      0.0;  ///< among the reached ones: mean of rmse / true value - 1, the bias of stopping
+  double mean_frames = 0.0;      ///< among the reached ones: mean number of frames
+  double mean_rmse_error = 0.0;  ///< of these: mean of rmse / true value - 1, bias of stopping
 
   /// True if at least 95 % of the runs are right, as far as the number of seeds can tell.
   [[nodiscard]] bool holds() const;

@@ -22,8 +22,8 @@ struct StudyScene {
   std::string name;
   TargetMap targets;
   int columns;  ///< columns to read, evenly spread over the map
-  /// [row][column]: distance that the map did not know, not judged; empty: none.
-  std::vector<bool> guessed = {};
+  std::vector<bool> guessed =
+      {};  ///< [row][column]: true if the map has no distance, not judged; empty: all are known
 };
 
 /// Map column of the `index`-th column read.

@@ -18,8 +18,8 @@ namespace dtof {
 struct EnlargeScene {
   std::string name;
   TargetMap targets;
-  /// [row][column]: depth that the map did not know, not judged; empty: none.
-  std::vector<bool> guessed = {};
+  std::vector<bool> guessed =
+      {};  ///< [row][column]: true if the map has no depth, not judged; empty: all are known
 };
 
 struct ArraySize {

@@ -18,10 +18,10 @@ struct WalkSettings {
   SensorModel sensor;
   double klux = 14.0;
   std::vector<ReadoutParameters> readouts;
-  std::vector<double> reflectivities;  ///< judged, above 0; the correction is fitted at other values between
-                                       ///< the smallest and the largest
-  std::vector<double> distances_m;     ///< judged, above 0
-  int columns = 8;  ///< columns of 160 pixels for each reflectivity and distance, at least 4
+  std::vector<double>
+      reflectivities;  ///< judged, above 0; the correction is fitted on others between their ends
+  std::vector<double> distances_m;  ///< judged, above 0
+  int columns = 8;                  ///< columns of 160 pixels for each reflectivity and distance, at least 4
   std::uint64_t seed = 1;
   int threads = 0;
 };

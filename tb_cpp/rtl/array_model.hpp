@@ -46,8 +46,8 @@ class ArrayModel {
     const std::uint16_t* result_confidence;
     const std::uint16_t* result_second;  ///< dtof_pool_pointer_array only, else null
 
-    /// Write enable of column 0's histogram or pointer SRAM; 0 unless built with PROBE.
-    const std::uint8_t* probe_write;
+    const std::uint8_t*
+        probe_write;  ///< write enable of column 0's histogram or pointer SRAM; 0 unless built with PROBE
     const std::uint16_t* probe_address;
     const std::uint16_t* probe_data;
   };

@@ -20,8 +20,8 @@ struct ResultAddress {
 /// Parameters of one compiled array: dtof_pool_pointer_array for the pool read-outs, dtof_array for the
 /// others.
 struct RtlConfiguration {
-  /// Without a pool read-out's shares and S1, which are registers that the driver writes.
-  ReadoutParameters parameters;
+  ReadoutParameters
+      parameters;  ///< a pool read-out's shares and S1 are not compiled: the driver writes these registers
   int pixels_per_sram = kArrayRows;  ///< PIXELS_PER_SRAM, rows of a column
   int sram_num = 8;                  ///< SRAM_NUM, columns
   int pointer_ports = 2;             ///< POINTER_PORTS, 1 or 2 (pointer read-outs)

@@ -19,7 +19,8 @@ namespace dtof {
 
 /// Lines and events of a frame at the array in the subsystem.
 struct ArrayFrame {
-  std::vector<Line> lines;  ///< lines of all acquisitions, before mask and gate, without dropped acquisitions
+  std::vector<Line>
+      lines;  ///< those of all acquisitions in order, before mask and gate, without dropped ones
   std::uint64_t cycles = 0;  ///< clocks from start to done, both included; 0 while the frame is under way
   std::uint32_t lost = 0;    ///< acquisitions in which the line buffer ran empty
   std::vector<std::uint64_t> shots;  ///< clocks in which shot_o was high, from the frame's start

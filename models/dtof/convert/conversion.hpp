@@ -31,8 +31,9 @@ struct ConversionOptions {
   RecordingOptions recording = {};  ///< `file` is the input
   /// Scale of a map; none: the default of read_depth_image.
   std::optional<double> metres_per_unit = std::nullopt;
-  std::string confidence = {};  ///< file with each pixel's confidence; empty: none, or the archive's own
-  std::string amplitude = {};   ///< file with each pixel's amplitude; empty: none, or the archive's own
+  std::string confidence =
+      {};  ///< a file with the confidence of each pixel; empty: none, or the archive's own
+  std::string amplitude = {};  ///< file with each pixel's amplitude; empty: none, or the archive's own
   double degrees_per_pixel = kPixelAngle;  ///< for a point cloud
   bool text = false;                       ///< write a point cloud as text
 };

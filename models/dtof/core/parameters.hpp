@@ -24,13 +24,12 @@ constexpr int pool_template_unit(int count_width) { return count_width > 5 ? 1 <
 /// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer.md).
 /// Lengths are fractions of a coarse bin, a 32nd of the range.
 struct PoolPointerParameters {
-  /// GROUP_SIZE: rows of a group, which shares a coarse histogram; a power of two, 4 .. 32.
-  int group_size = 4;
-  int labels = 5;      ///< LABELS: candidate depths of a group, 2 .. 8
+  int group_size =
+      4;           ///< GROUP_SIZE: rows of a group, which shares a coarse histogram; a power of two, 4 .. 32
+  int labels = 5;  ///< LABELS: candidate depths of a group, 2 .. 8
   int score_bits = 4;  ///< SCORE_BITS: width of a candidate's score in a pixel word, 1 .. 4
-  /// OFFSET_BITS: width of the leader's offset in the track phase (signed, 32nds of a coarse bin), 2 .. 6; 0:
-  /// no offset.
-  int offset_bits = 6;
+  int offset_bits =
+      6;  ///< OFFSET_BITS: width of the leader's offset (signed, 32nds of a coarse bin), 2 .. 6; 0: none
   int count_bits = 7;  ///< ADVANTAGE_WIDTH: bits of the leader's advantage in the pointer phase, 4 or 7
   /// POINTER_SHIFT: the leader's pointer has the unit 2^(pointer_shift - 11) coarse bins; 0 .. 2, or 0 .. 4
   /// if count_bits is 4.

@@ -45,8 +45,9 @@ struct PoolNumbers {
   int own_weight = 3;  ///< weight of a group's own histogram relative to its four neighbours'
   /// 2^-leak_shift of a candidate's height above the floor leaks into the pairs two further on.
   int leak_shift = 3;
-  int track_reach = 4;                      ///< half width of a candidate's window, cells
-  std::array<int, 2> offset_gear = {3, 8};  ///< scores up to which the offset moves by 4 and by 2
+  int track_reach = 4;  ///< half width of a candidate's window, cells
+  std::array<int, 2> offset_gear = {
+      3, 8};  ///< the offset moves by 4 below the first score, by 2 below the second
 
   PoolCost label_cost = {0, 2};      ///< in choose, cost of each candidate from the third on
   PoolCost choose_penalty = {2, 5};  ///< lambda of choose
@@ -60,13 +61,13 @@ struct PoolNumbers {
   int prior_weight = 28;  ///< added to a pair of bins where the last frame used a candidate
   int prior_reach = 2;    ///< largest distance from that candidate, cells
 
-  /// 1: a pixel whose best two labels tie sends no message to the column to the right.
-  int left_needs_margin = 0;
+  int left_needs_margin =
+      0;  ///< 1: a pixel whose best two labels tie sends no message to the column to the right
 
   bool smooth = true;  ///< S1
-  /// T of dark and of bright groups in units, for S1 and for starts.
-  std::array<int, 2> smooth_reach = {1024, 1536};
-  int smooth_bright_from = 6;  ///< background B from which a group counts as bright
+  std::array<int, 2> smooth_reach = {1024,
+                                     1536};  ///< units: T of dark and of bright groups, for S1 and for starts
+  int smooth_bright_from = 6;                ///< background B from which a group counts as bright
 
   PoolTemplate coarse_template{};  ///< subtracted from the coarse bins in decode (TEMPLATE)
 

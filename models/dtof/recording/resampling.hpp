@@ -28,8 +28,8 @@ struct Resampling {
   double time_shift = 0.0;            ///< s, added to every measured time; times outside [0, T_int) are lost
   std::uint32_t acquisitions = 3333;  ///< per frame
   int slots = 2;                      ///< events kept per pixel and acquisition, earliest first
-  /// Photons per pixel and frame; none: all measured ones.
-  std::optional<double> photon_budget = std::nullopt;
+  std::optional<double> photon_budget =
+      std::nullopt;  ///< photons per pixel and frame; none: all measured ones
   PhotonNumber photon_number = PhotonNumber::kPoisson;
   double background = 0.0;  ///< additional background events per acquisition (mean), flat over T_int
   std::uint64_t seed = 1;

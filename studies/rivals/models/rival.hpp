@@ -27,8 +27,8 @@ using PixelFrames = std::span<const std::span<const Detection>>;
 struct RivalHardware {
   int words = 1;      ///< words of a pixel in the column's SRAM; a timestamp reads and writes one of them
   int word_bits = 0;  ///< words * word_bits is at least bits_per_pixel()
-  /// Full adders beyond one for each bit of a word; a times b bits of a product or quotient.
-  int adder_bits = 0;
+  int adder_bits =
+      0;  ///< full adders beyond one for each bit of a word; a times b bits of a product or quotient
   int table_bits = 0;  ///< bits of tables addressed by timestamps, which each column needs
 };
 
