@@ -69,8 +69,8 @@ double median_error_over_bound(const SceneTruth& truth, std::span<const double> 
                                const SceneMeasurement& measurement);
 
 /// Reads out scenes with the models of several read-outs. Unless `references` is false, it also reads
-/// hisPointer with paired coarse bins and two references on full histograms, which know each pixel's signal
-/// and background: the matched filter of the single pixel, and the pooled one
+/// hisPointer with paired coarse bins and two references on full histograms. The references know each pixel's
+/// signal and background: the matched filter of the single pixel, and the pooled one
 /// (readout/pooled_matched_filter.hpp). All see the same photons; poolPointer also those of the other columns
 /// of its engines. With TableRule::kFlat each has a look-up table by FlatCalibration, else distances follow
 /// Eq. 3.11.

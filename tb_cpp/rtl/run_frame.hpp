@@ -27,9 +27,9 @@ struct RtlSourceFrame {
 };
 
 /// Returns the compiled arrays that read the columns `selected` of a source of `source_columns` columns and
-/// `rows` rows: for poolPointer one for each engine with a selected column, in order; otherwise a single
-/// array. With `waveform`, one of the arrays can record waveforms. Throws InputError if no such array is
-/// compiled.
+/// `rows` rows. For poolPointer these are the engines with a selected column, in order; otherwise it is a
+/// single array. With `waveform`, one of the arrays can record waveforms. Throws InputError if no such array
+/// is compiled.
 std::vector<RtlConfiguration> find_rtl_configurations(const ReadoutParameters& parameters, int rows,
                                                       int source_columns, std::span<const int> selected,
                                                       bool waveform = false);

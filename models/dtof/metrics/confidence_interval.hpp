@@ -64,7 +64,7 @@ Estimate estimate_standard_deviation(std::span<const double> values);
 /// Root mean square; the interval follows from the standard error of the squares. At least 2 values.
 Estimate estimate_root_mean_square(std::span<const double> values);
 
-// The same three figures for a sample that may hold rare outliers.
+// The three figures above for a sample that may hold rare outliers.
 // With kFewOutliers outliers or more, or fewer than 8 values, the intervals are those above. Otherwise
 // outliers and other values are two populations. The others have the intervals above, and the outliers' share
 // has the exact interval of Clopper and Pearson (1934). Both are combined to a hybrid interval (MOVER, Zou

@@ -45,8 +45,8 @@ struct PhotonCount {
   std::uint64_t outside = 0;  ///< photons outside [0, T_int), which are lost
 };
 
-/// A measurement replayed as a TDC stream. Every photon goes to a uniformly random acquisition. Of an
-/// acquisition the first `slots` events in time are kept (pile-up, thesis 2.2.2). A pixel's random numbers
+/// A measurement replayed as a TDC stream. Every photon goes to a uniformly random acquisition, and each
+/// acquisition keeps its first `slots` events in time (pile-up, thesis 2.2.2). A pixel's random numbers
 /// depend on seed, frame and the pixel's address alone.
 class ResampledStream : public StreamSource {
  public:

@@ -21,9 +21,9 @@ namespace dtof {
 /// along u are removed first. For bins and splines, where all u[k] are equal, this is the zero mean of the
 /// paper. The waves of Fourier codes have u = 0 and lose no dimension. Pile-up is not modelled.
 ///
-/// If both the pulse's photons and the noise are unknown, the likelihood ratio of a pulse at t is (1 -
-/// rho^2)^(-d / 2), for rho > 0 and equal noise in all counters; d is the number of remaining dimensions. Its
-/// logarithm is the evidence.
+/// The likelihood ratio of a pulse at t is (1 - rho^2)^(-d / 2) if both the pulse's photons and the noise are
+/// unknown. This holds for rho > 0 and equal noise in all counters; d is the number of remaining dimensions.
+/// Its logarithm is the evidence.
 class CodeMatcher {
  public:
   /// `weights[x * counters + k]` is C[k][x] for the codes x = 0 .. 2^NP - 1; the last code is no detection.

@@ -12,13 +12,13 @@ namespace dtof {
 /// one, row by row. Beyond the border, the border's spots are repeated.
 inline constexpr int kCandidates = 9;
 /// Features of a pixel:
-///  0 .. 8    logarithm of each candidate's distance less that of the candidates' median, times 5, at most 2
-///            in size
-///  9 .. 17   each candidate's confidence as the share of the small array's pixels that have less
-///  18 .. 26  how like the pixel's each candidate's brightness is: exp(-(difference / 0.05)^2 / 2)
-///  27        the pixel's brightness
-///  28, 29    how far right and below the nearest spot the pixel is, in the spots' mean spacing
-///  30        the spots' mean spacing in pixels, divided by 4
+///  - 0 .. 8: logarithm of each candidate's distance relative to the candidates' median, times 5, limited to
+///    -2 .. 2;
+///  - 9 .. 17: each candidate's confidence, as the share of the small array's pixels with less confidence;
+///  - 18 .. 26: similarity of each candidate's brightness to the pixel's: exp(-(difference / 0.05)^2 / 2);
+///  - 27: the pixel's brightness;
+///  - 28, 29: offset of the pixel to the right of and below the nearest spot, in the spots' mean spacing;
+///  - 30: the spots' mean spacing in pixels, divided by 4.
 inline constexpr int kFeatures = 3 * kCandidates + 4;
 
 /// Input of the learned enlarger, for each pixel of the large array.
