@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What other tools than the project's own read the RTL by: dtof.core (FuseSoC), Bender.yml and hdl/dtof_no_srams.f,
+"""File lists by which other tools read the RTL: dtof.core (FuseSoC), Bender.yml and hdl/dtof_no_srams.f,
 written from hdl/dtof.f and readouts.toml by scripts/generate.py."""
 
 import json

@@ -53,7 +53,7 @@ class Block:
 
 
 def proofs(root: Path) -> dict[str, tuple[int, int]]:
-    """Numbers of proofs and planted bugs, by module."""
+    """By module: proofs and planted bugs."""
     found: dict[str, tuple[int, int]] = {}
     for proof in tomllib.loads((root / "formal/proofs.toml").read_text(encoding="utf-8"))["proof"]:
         for module in proof["module"].split(", "):
@@ -63,13 +63,13 @@ def proofs(root: Path) -> dict[str, tuple[int, int]]:
 
 
 def pages(root: Path) -> dict[str, str]:
-    """Page that has a module's section, by module."""
+    """By module, the page that has its section."""
     return {name: f"blocks/{path.name}#{name}" for path in sorted((root / "docs/reference/blocks").glob("*.md"))
             for name in re.findall(r"^## `(\w+)`$", path.read_text(encoding="utf-8"), re.MULTILINE)}
 
 
 def blocks(root: Path) -> list[Block]:
-    """Modules of the file list in order, without packages, stand-ins and assertions."""
+    """Modules of the file list in its order; packages, stand-ins and assertions are no blocks."""
     proved, described, found = proofs(root), pages(root), []
     for line in (root / "hdl/dtof.f").read_text(encoding="utf-8").splitlines():
         if not line.endswith(".sv") or line.startswith(("//", TECHNOLOGY)):

@@ -62,7 +62,7 @@ def _never_differs(aiger: bytes) -> bool:
 
 
 def proved(tree: Path, files: Iterable[str], file: str, mutated: str, parameters: Parameters) -> bool:
-    """Whether the module of `file`, with these parameters, never differs from the one in the text `mutated`."""
+    """True if the module of `file`, with these parameters, never differs from the one in the text `mutated`."""
     module = Path(file).stem
     sources = [str(tree / name) for name in files]
     with tempfile.TemporaryDirectory() as scratch:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the live plots show: figures of reports/figures.json and of the tables under reports/, with the command that made each.
+"""Data of the live plots: figures of reports/figures.json and of the tables under reports/, with the command that made each.
 
 plots.js draws what is written here. A plot has rows; a row is a read-out at a light, with a value of each measure."""
 

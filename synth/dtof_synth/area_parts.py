@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the area of an array is made of, and what its macros and cells take once they are placed.
+"""Parts of an array's area, and the area of its macros and cells after placement.
 
 reports/area.md's total is the sum of cells and macros. A placed array is larger: rows are not filled, a macro keeps
 its neighbours at a distance, and flip-flops in a scan chain are larger.

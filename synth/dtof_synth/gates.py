@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `make synth STRICT=1` demands: every goal is met and no slack is negative, unless synth/exceptions.toml says why not."""
+"""Checks of `make synth STRICT=1`: every goal is met and no slack is negative, unless synth/exceptions.toml says why not."""
 
 from __future__ import annotations
 

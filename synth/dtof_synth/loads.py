@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What every driver has to carry against its limits: the Liberty's max_capacitance, and a number of inputs.
+"""Loads of all drivers compared with their limits: the Liberty's max_capacitance, and a number of inputs.
 
 OpenSTA of 2019 checks neither. Inside a block a net has its pins and the wire load of each; a net between blocks has the wire of the
 floorplan besides, in the slow corner. Not looked at: the clock, which has a tree of its own; constants, of which a layout puts a tie

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What OpenROAD-flow-scripts needs to place and route an array: config.mk, constraints, LEF and Liberty of the SRAMs.
+"""Inputs of OpenROAD-flow-scripts for placing and routing an array: config.mk, constraints, LEF and Liberty of the SRAMs.
 
 The platform is its nangate45; macros have the 40 nm model's size, rounded up to that platform's sites, and its layers. The
 flow itself is not run here (docs/reference/layout.md).

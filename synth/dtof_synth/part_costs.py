@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What each part of poolPointer takes: the flow with the parts' modules kept, counted in area and simulated for power.
+"""Area and power of each part of poolPointer: the flow with the parts' modules kept, counted in area and simulated for power.
 
 An engine of two columns and one pair go through the flow as in scene_power.py, but the modules in them are not flattened, so
 that each has cells and transitions of its own. Logic is no longer shared across the parts' borders, so that the sum is

@@ -64,7 +64,7 @@ class _Sums:
 
 
 def _sums(output: str, label: str, group: str) -> _Sums:
-    """What synth/sta/cell_power.tcl printed. OpenSTA of 2019 adds rise and fall energy for every transition, so its internal
+    """Power sums in the output of synth/sta/cell_power.tcl. OpenSTA of 2019 adds rise and fall energy for every transition, so its internal
     power is twice the power and is halved here; test_flow_checks.py pins that behaviour."""
     found = found_in("OpenSTA", rf"^DTOF_POWER {label} {group} (\S+) (\S+) (\S+)$", output)
     internal, switching, leakage = (float(number) for number in found.groups())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the steps behind mapping may change: they put in buffers and copies of registers, and give cells other drives.
+"""Checks that the steps after mapping keep the logic: they may insert buffers, copy registers and change drives.
 Everything else of the netlist that is counted and timed must be as it was mapped, and as `make sim-netlist` simulates it.
 
 A module's logic is, for each cell that is no buffer, what it computes and where each of its inputs comes from once buffers

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What stands for most columns in the netlist that is timed: the logic at their borders.
+"""Stand-ins for most columns in the timed netlist: the logic at their borders.
 
 A stand-in has every cell between an input port of the column and the first register, gate of the clock or macro behind it, and
 every cell between an output port and the last one before it, these included. So each path that crosses the border of a column
