@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a sweep consists of: its description (TOML), the points, the batches that are jobs, and their files.
+"""Contents of a sweep: its description (TOML), the points, the batches (jobs), and their files.
 
-A point is one value of each axis. Its seed follows from some of its coordinates alone, so that it is the same whatever else
-the sweep has, on whatever machine. A batch is a run of points that one job computes one after the other; its name is the
-hash of the program and files that it reads, of the command and of its points, so that a file of that name is the result of
-exactly these inputs and never has to be computed again.
+A point is one value of each axis. Its seed depends on some of its coordinates alone, so it is the same in any sweep and on any machine. A
+batch is a series of points that one job computes one after the other. Its name is the hash of the program, of the files that it reads, of
+the command and of its points. So a file with this name is the result of exactly these inputs and never has to be computed again.
 """
 
 from __future__ import annotations

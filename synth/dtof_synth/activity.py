@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Power from activity: a small array's netlist simulated on a scene, every transition of every net counted.
+"""Power from activity: a small array's netlist is simulated on a scene, and every transition of every net is counted.
 
-Icarus Verilog simulates the netlist beside its RTL (simulation.py, so it is the RTL's netlist) and writes the changes of
-all nets between cells. A transition of a net costs half of C V^2 (pins and wire load behind it) and the internal
-energy of the cell that drives it, both of the Liberty; glitches do not count, because the models have no delay. The
-clock is charged apart: what the tree feeds in every clock (scene_power.py), what is behind a clock gate in those clocks that
-the gate lets through. An SRAM is charged per access.
+Icarus Verilog simulates the netlist beside its RTL, compares both (simulation.py), and writes the changes of all nets
+between cells. A transition of a net costs half of C V^2 (pins and wire load behind it) and the internal energy of the driving cell, both
+from the Liberty. Glitches do not occur, because the models have no delay. The clock is charged separately: the tree's loads in every clock
+(scene_power.py), loads behind a clock gate in the clocks that the gate passes. An SRAM is charged per access.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An elaborated netlist whose names say nothing of the source, so that the same logic is synthesised in the same way.
+"""Elaborated netlists without names from the source, so that equal logic is always synthesised in the same way.
 
-Yosys makes private names of file names, lines and a running number; what its passes and ABC do depends on names and on their
-order, so that a comment in one file would change the area of every read-out by some per cent. So private names become numbers,
-and what only tells where something came from is dropped.
+Yosys derives private names from file names, lines and a running number. Its passes and ABC depend on names and their order, so a comment in
+one file would change the area of every read-out by some per cent. Therefore private names become numbers, and attributes that only tell the
+origin are dropped.
 """
 
 from __future__ import annotations

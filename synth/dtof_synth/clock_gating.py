@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Clock gates for registers that load under one enable, put in between technology-independent synthesis and mapping.
+"""Clock gates for registers with a common enable, inserted between technology-independent synthesis and mapping.
 
-The RTL has enables and no gates: simulation, proofs and FPGAs see plain registers. Where the library has an integrated
-clock gate, registers of a column, a pair or an engine that share an enable lose their multiplexers and get a gated
-clock instead, as a synthesis tool for silicon does it. The array's own registers stay as they are: the fan-out trees
-copy some of them, and the floorplan would have to place their gates.
+The RTL has enables and no gates, so simulation, proofs and FPGAs use plain registers. If the library has an integrated clock gate,
+registers of a column, a pair or an engine that share an enable get a gated clock instead of multiplexers, as a synthesis tool for silicon
+does it. The array's own registers stay unchanged: the fan-out trees copy some of them, and the floorplan would have to place their gates.
 """
 
 from __future__ import annotations

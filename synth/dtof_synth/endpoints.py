@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ends of paths: that every one is timed, or why not.
+"""Checks that every end of a path is timed, or has a reason not to be.
 
-OpenSTA's check_setup lists the data pins that no path reaches, registers without a clock, ports without a budget and loops. What it
-lists must have one of three reasons, else the flow stops:
+OpenSTA's check_setup lists data pins that no path reaches, registers without a clock, ports without a budget, and loops. Each entry must
+have one of three reasons, else the flow stops:
 
-* side band: constraints/dtof.sdc takes the SRAMs' side band out of timing, for it rests while the array works;
-* constant: the pin hangs on a constant, so that no path ends there;
-* inside: the pin is a stand-in's, and its paths begin in the logic that the stand-in has not (stand_in.py). The same pin of a real
-  column has them.
+* side band: constraints/dtof.sdc excludes the SRAMs' side band from timing, since it is idle while the array works;
+* constant: the pin is connected to a constant, so that no path ends there;
+* inside: the pin is a stand-in's, and its paths begin in logic that the stand-in lacks (stand_in.py). The same pin of a real column has
+these paths.
 """
 
 from __future__ import annotations

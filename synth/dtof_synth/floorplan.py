@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where things stand on the die, and what the ways between them need.
+"""Positions of cells on the die, and the buffers and repeaters that the wires between them need.
 
-Columns stand side by side in order, the shared logic under their middle, an engine under the middle of its pairs of
-columns, and the ports of a column's timestamps above it. Only the distance along the row counts: a column is 0.02 mm
-wide and the row 5 mm.
+Columns stand side by side in order. The shared logic is below their middle, an engine below the middle of its pairs of columns, and the
+ports of a column's timestamps above the column. Only the distance along the row counts: a column is 0.02 mm wide and the row 5 mm.
 
-Between the shared logic and the columns a signal goes from a register to a register (hdl/common/dtof_broadcast.sv). The last
-one is copied, so that each copy serves the columns near it through few buffers. Longer ways get a repeater every
-REPEATER_UM. All of it is in the netlist, so that it is counted, timed (spef.py) and simulated like any other cell.
+Between the shared logic and the columns a signal goes from register to register (hdl/common/dtof_broadcast.sv). The last register is
+copied, so that each copy serves nearby columns through few buffers. Longer wires get a repeater every REPEATER_UM. All of this is in the
+netlist, so it is counted, timed (spef.py) and simulated like any other cell.
 """
 
 from __future__ import annotations

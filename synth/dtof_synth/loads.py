@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Loads of all drivers compared with their limits: the Liberty's max_capacitance, and a number of inputs.
 
-OpenSTA of 2019 checks neither. Inside a block a net has its pins and the wire load of each; a net between blocks has the wire of the
-floorplan besides, in the slow corner. Not looked at: the clock, which has a tree of its own; constants, of which a layout puts a tie
-wherever one is needed; and what input ports drive.
+OpenSTA of 2019 checks neither. Inside a block a net has its pins and the wire load of each. A net between blocks also has the wire of the
+floorplan, in the slow corner. Not examined are the clock, which has a tree of its own; constants, since a layout puts a tie cell wherever
+one is needed; and the nets that input ports drive.
 """
 
 from __future__ import annotations

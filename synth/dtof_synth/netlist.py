@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mapped netlists as Yosys writes them in JSON: counts, fan-out trees, and the reduced array for timing.
+"""Mapped netlists in Yosys's JSON: counts, fan-out trees, and the reduced array for timing.
 
-The array is synthesised as it is, instances of one column module (of one column, or two that share an SRAM). A net that drives more than its
-driver can is given a tree of buffers; between the shared logic and the columns trees follow the floorplan
-(floorplan.py), so that the broadcast is counted and timed with its wires. For timing, all but a few columns are replaced by
-the logic at their borders (stand_in.py).
+The array is synthesised as it is, with instances of one column module (of one column, or of the columns that share an SRAM). A net whose
+load exceeds its driver's limit gets a tree of buffers. Between the shared logic and the columns, trees follow the floorplan (floorplan.py),
+so that the broadcast is counted and timed with its wires. For timing, all but a few columns are replaced by the logic at their borders
+(stand_in.py).
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that the steps after mapping keep the logic: they may insert buffers, copy registers and change drives.
-Everything else of the netlist that is counted and timed must be as it was mapped, and as `make sim-netlist` simulates it.
+"""Checks that the steps after mapping keep the logic: they may insert buffers, copy registers and change drives. Everything else in the
+counted and timed netlist must be as mapped, and as `make sim-netlist` simulates it.
 
-A module's logic is, for each cell that is no buffer, what it computes and where each of its inputs comes from once buffers
-are looked through and a copied register stands for its original; and the same for each output of the module.
+The logic of a module is, for each cell that is no buffer, its function and the sources of its inputs, and the source of each output of the
+module. Sources are found by looking through buffers and by taking the original in place of a copied register.
 """
 
 from __future__ import annotations

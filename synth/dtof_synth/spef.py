@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wires between the blocks of an array as SPEF, from the floorplan: what OpenSTA times them with.
+"""Wires between the blocks of an array as SPEF, from the floorplan, for OpenSTA.
 
-A wire runs from its driver along the row to its farthest sinks, with a piece of `Wire` between each two neighbours. Wires
-inside a block are the library's wire load, which stands at the pins here, since OpenSTA takes no wire load for a net that
-has a description of its own.
+A wire runs from its driver along the row to its farthest sinks, with a piece of `Wire` between any two neighbours. Wires inside a block
+have the library's wire load, which is put at the pins here, since OpenSTA applies no wire load to a net with a description of its own.
 """
 
 from __future__ import annotations

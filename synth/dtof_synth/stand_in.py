@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stand-ins for most columns in the timed netlist: the logic at their borders.
 
-A stand-in has every cell between an input port of the column and the first register, gate of the clock or macro behind it, and
-every cell between an output port and the last one before it, these included. So each path that crosses the border of a column
-is timed as it is in the whole array, and so is each path through a column from port to port. Paths that begin and end inside a
-column are alike in all columns; the few real columns have them.
+A stand-in has every cell between an input port of the column and the first register, clock gate or macro behind the port. It also has every
+cell between an output port and the last register, clock gate or macro in front of it; these end cells are included. So each path that
+crosses a column's border is timed as in the whole array, and so is each path through a column from port to port. Paths that begin and end
+inside a column are equal in all columns; the few real columns have them.
 
-A cell that is left out still loads the nets of those that stay: load cells, which have a capacitance and no timing, take its
-place. Pins of registers, gates of the clock and macros that would hang on a cell that is left out are not connected; `cut`
-names them.
+A cell that is left out still loads nets of the stand-in. It is replaced by load cells, which have a capacitance and no timing. Pins of
+registers, clock gates and macros that such a cell would drive are not connected; `cut` names them.
 """
 
 from __future__ import annotations
