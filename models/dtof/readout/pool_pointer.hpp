@@ -87,8 +87,8 @@ std::array<int, 2> smooth_reach_of(int cell_shift);
 /// InputError for illegal parameters.
 PoolNumbers pool_pointer_parameters(const ReadoutParameters& parameters);
 
-/// Timestamps of a pixel in one acquisition. Of the first two, the first is preferred in even acquisitions
-/// and the second in odd ones. With a single timestamp, both members hold it.
+/// Timestamps of a pixel in one acquisition. Only the first two count: the first is preferred in even
+/// acquisitions, the second in odd ones. With a single timestamp, both members hold it.
 struct PoolEvent {
   std::uint32_t acquisition;
   std::uint16_t preferred;  ///< units

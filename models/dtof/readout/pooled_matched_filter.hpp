@@ -24,8 +24,7 @@ struct PoolingPrior {
 /// is poolPointer's (docs/reference/poolpointer.md, "Chain"), with every bin as a label and the matched
 /// filter's log-likelihood ratio as evidence. Max-product on a chain is exact: the positions maximise
 ///
-///     sum over pixels of score_r(tau_r) - sum over neighbours of (|tau_r - tau_r+1| > reach ? edge_penalty :
-///     0)
+///     sum_r score_r(tau_r) - sum_r (|tau_r - tau_r+1| > reach ? edge_penalty : 0)
 ///
 /// Each pixel takes its belief's best bin, refined by the parabola through its own scores. No hardware could
 /// hold the 2^NP bins of every pixel of a large array, so this runs on the host only.

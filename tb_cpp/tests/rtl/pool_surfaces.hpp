@@ -17,7 +17,7 @@
 
 namespace dtof {
 
-/// Scenes of the columns in tests of the pool read-outs' RTL.
+// Scenes of the columns in tests of the pool read-outs' RTL.
 
 template <typename Condition>
 std::vector<RtlConfiguration> configurations_with(const Condition& condition) {
