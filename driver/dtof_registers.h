@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Written by scripts/generate.py from hdl/subsystem/registers.toml.
- * Offsets in bytes; of each field the lowest bit and the mask of its bits at their place. */
+ * Register offsets are in bytes. Each field has its lowest bit (LSB) and the mask of its bits in the register. */
 #ifndef DTOF_REGISTERS_H
 #define DTOF_REGISTERS_H
 
@@ -321,7 +321,7 @@
 #define DTOF_SETTLE_VALUE_LSB 0
 #define DTOF_SETTLE_VALUE_MASK UINT32_C(0x0000FFFF)
 
-/* X(offset, registers, value behind a reset, bits of it that no parameter decides) for each of them. */
+/* X(offset, registers, value after a reset, bits of it that do not depend on parameters) for each register. */
 #define DTOF_FOR_EACH_REGISTER(X) \
   X(DTOF_ID, 1, UINT32_C(0x444F4650), UINT32_C(0xFFFFFFFF)) \
   X(DTOF_VERSION, 1, UINT32_C(0x00030004), UINT32_C(0xFFFFFFFF)) \

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the rules of scripts/cases.py look at outputs with: a program's run, PNG pictures, NPY arrays, PFM maps."""
+"""Helpers for the rules of scripts/cases.py: running a program, and reading PNG pictures, NPY arrays and PFM maps."""
 
 import os
 import re
@@ -16,7 +16,7 @@ MINUTES = 20  # that a step may take
 
 
 class CaseError(Exception):
-    """A case does not do what its rule says."""
+    """A case does not behave as its rule demands."""
 
 
 @dataclass
@@ -43,7 +43,7 @@ def run(*command: str | bytes | Path, folder: Path, text: bytes | None = None, *
 
 
 def shell(command: str, folder: Path) -> Done:
-    """A line of bash, in which $DTOF is the program."""
+    """Runs a line of bash, in which $DTOF is the program."""
     return run("bash", "-c", command, folder=folder, DTOF=str(DTOF))
 
 
@@ -58,7 +58,7 @@ def last_line(text: str) -> str:
 
 
 def refused(done: Done, *parts: str) -> None:
-    """Exit status 1 and one line on standard error, with these parts."""
+    """Checks for exit status 1 and a single line on standard error that contains these parts."""
     require(done.code == 1, f"exit status {done.code} instead of 1: {last_line(done.text)}")
     require(done.error.count("\n") == 1, f"{done.error.count(chr(10))} lines instead of one: {done.error!r}")
     for part in parts:
@@ -66,7 +66,7 @@ def refused(done: Done, *parts: str) -> None:
 
 
 def png(path: Path) -> tuple[int, int, int, list[list[int]]]:
-    """Width, height, bits and, row by row, all samples of a PNG that is not interlaced (of a palette: the indices)."""
+    """Width, height, bits and all samples, row by row, of a PNG without interlacing (with a palette: the indices)."""
     data = path.read_bytes()
     at, packed, header = 8, b"", b""
     while at < len(data):
@@ -101,7 +101,7 @@ def samples(line: bytes, bits: int, count: int) -> list[int]:
 
 
 def npy(path: Path) -> list[float]:
-    """The elements of an NPY array, in the file's order."""
+    """The elements of an NPY array, in file order."""
     data = path.read_bytes()
     size, form = (2, "<H") if data[6] == 1 else (4, "<I")
     (length,) = struct.unpack(form, data[8 : 8 + size])
@@ -140,7 +140,7 @@ TOLERANCE_MM = 15  # two codes of the time converter
 
 
 def depth_map(folder: Path, file: str | Path, *options: str) -> list[int]:
-    """Millimetres that the sharp sensor measures of a depth map of 4 x 4 pixels."""
+    """Distances in mm that a sensor without noise measures for a depth map of 4 x 4 pixels."""
     (folder / "sharp.toml").write_text(SHARP_SENSOR, encoding="utf-8")
     out = folder / "out"
     succeed(run(DTOF, "frame", "--depth", file, "--sensor", "sharp.toml", "--klux", "0", "--readout", "histogram", "--engine", "model",
@@ -149,14 +149,14 @@ def depth_map(folder: Path, file: str | Path, *options: str) -> list[int]:
 
 
 def require_depths(measured: list[int], metres: Sequence[float | None], what: str) -> None:
-    """Known depths are measured; an unknown one (None) has no light and is 0."""
+    """Checks that known depths are measured; a pixel of unknown depth (None) has no light and must be 0."""
     for place, (value, truth) in enumerate(zip(measured, metres, strict=True)):
         wanted = 0.0 if truth is None else truth * 1000
         require(abs(value - wanted) <= TOLERANCE_MM, f"{what}: pixel {place} is {value} mm instead of {wanted:.0f}")
 
 
 def with_shot(chip: Path, work: Path) -> Path:
-    """A copy of a case's chip whose subsystem has the port that came later: Verilator says PINMISSING for any output without a pin."""
+    """A copy of a case's chip with the subsystem's new port connected: Verilator reports PINMISSING for any output without a pin."""
     text = chip.read_text(encoding="utf-8")
     require(text.count(".irq_o(irq),") == 1 and "shot_o" not in text, f"{chip.name} connects irq_o otherwise, or shot_o")
     copy = work / chip.name

@@ -31,7 +31,7 @@ PIXELS = 16  # of the depth maps
 
 @dataclass(frozen=True)
 class Case:
-    """`folder` has the inputs, `work` is empty."""
+    """A reported case: `folder` has its inputs; `work` is an empty folder."""
 
     folder: Path
     work: Path
@@ -65,7 +65,7 @@ def frame(case: Case, *options: str | Path) -> tools.Done:
 
 
 def true_distances(case: Case) -> list[float]:
-    """Millimetres, of the measurements of a replay."""
+    """True distances in mm for the measurements of a replay."""
     lines = (case.work / "out" / "measurements.csv").read_text(encoding="utf-8").splitlines()[1:]
     return [float(line.split(",")[0]) for line in lines]
 
@@ -231,7 +231,7 @@ def pipe(case: Case) -> None:
 
 
 def other_case(case: Case, name: str) -> Path:
-    """Another case's folder, whose inputs this one takes."""
+    """Folder of another case whose inputs this case uses."""
     return case.folder.parent / name
 
 
@@ -339,7 +339,7 @@ def use_before_declaration(_case: Case) -> None:
 
 
 def has_commit() -> bool:
-    """Whether software commits its settings together."""
+    """True if software commits all its settings together."""
     return any("] COMMIT = " in path.read_text(encoding="utf-8") for path in HDL.rglob("dtof_registers_pkg.sv"))
 
 
@@ -378,7 +378,7 @@ def installed(case: Case) -> Path:
 
 
 def consumer(case: Case, prefix: Path, **environment: str) -> tools.Done:
-    """Configures the case's project; its includes get the prefix that installed headers have."""
+    """Configures the case's project, with include paths as for installed headers."""
     source = case.work / "source"
     shutil.copytree(case.folder, source, copy_function=shutil.copyfile)
     for file in source.glob("*.cpp"):
@@ -409,7 +409,7 @@ def consumer_shared(case: Case) -> None:
 
 
 def archive(case: Case, name: str) -> Path:
-    """The project's files as they stand in the working tree, without the repository."""
+    """Archive of the project's files in the working tree, without the repository."""
     folder = case.work / name
     listed = succeed(run("git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard", folder=case.work))
     for file in filter(None, listed.out.split("\0")):
@@ -446,7 +446,7 @@ def release_flags(case: Case) -> None:
 
 @slow_rule
 def tarball(case: Case) -> None:
-    """Without a repository `make test` waited for a text at the terminal, and went on over tracebacks."""
+    """Outside a repository, `make test` must neither wait for input at the terminal nor continue after tracebacks."""
     folder = archive(case, "T")
     done = run("bash", "scripts/lint.sh", "--quick", folder=folder, GIT_CEILING_DIRECTORIES=str(case.work))
     require(done.code != 0 and "runs in a clone of the project alone" in done.error, f"the lint says: {tools.last_line(done.text)}")
@@ -455,7 +455,7 @@ def tarball(case: Case) -> None:
 
 
 def check(folder: Path, rules: dict[str, Rule]) -> str:
-    """What is wrong with a case; nothing if all is well."""
+    """Runs a case; returns the fault, or an empty text."""
     function = rules.get(folder.name)
     if function is None:
         return "no rule says what is expected"

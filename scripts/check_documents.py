@@ -38,7 +38,7 @@ def parsed(text: str) -> links.Page:
 
 
 def broken_links(root: Path, files: set[str]) -> list[str]:
-    """`files`: what git keeps, from `root`. What is only built is no target: a reader of the tree does not have it."""
+    """Links that lead nowhere. `files`: the files that git keeps, relative to `root`; built files do not count as targets."""
     pages = {file: parsed(read(root / file)) for file in sorted(files) if file.endswith(".md")}
     folders = {str(parent) for file in files for parent in Path(file).parents}
     found = []
@@ -64,7 +64,8 @@ def broken_links(root: Path, files: set[str]) -> list[str]:
 
 
 def missing_pages(root: Path, files: set[str]) -> list[str]:
-    """Pages that comments, messages and scripts name. Tests name those of small trees of their own."""
+    """Pages that comments, messages and scripts name but that do not exist. Tests are left out: they name pages of small trees of their
+    own."""
     found = []
     for file in sorted(file for file in files if not file.startswith("scripts/tests/")):
         for number, line in enumerate(read(root / file).splitlines(), 1):

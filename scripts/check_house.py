@@ -62,7 +62,7 @@ def reachable(name: str, known: dict[str, Library]) -> set[str]:
 
 
 def owner(file: str, known: dict[str, Library]) -> str | None:
-    """The library whose folder is the nearest above the file; studies/ as a whole has two."""
+    """The library with the nearest folder above the file. studies/ as a whole has two libraries."""
     folders = {library.folder: library.name for library in known.values()}
     if file.startswith("studies/"):
         folders["studies"] = "study_app" if re.search(r"_command\.cpp$|/common/(program|scene_list|commands|main)\.", file) else "study"

@@ -23,7 +23,7 @@ PERSON_ON_A_PAGE = re.compile(r"\b(hears?|heard)\b")
 
 
 def problem(name: str, line: str) -> str:
-    """What is wrong with this line of a file; empty if nothing is."""
+    """Fault of this line of a file; empty if there is none."""
     if NOT_THERE.search(line):
         return "'that there is': say what exists or does not"
     if name.endswith(".md"):

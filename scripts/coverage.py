@@ -25,7 +25,7 @@ POINT = re.compile(r"^C '(?P<keys>.*)' (?P<count>\d+)$")
 
 @dataclass
 class Counter:
-    """How many of some things there are, and how many of them were reached."""
+    """Number of items, and how many of them were reached."""
 
     reached: int = 0
     of: int = 0
@@ -56,7 +56,7 @@ def counted(points: dict) -> Counter:
 
 
 def line_numbers(ranges: str) -> list[int]:
-    """Those of "3-5,8"."""
+    """The numbers in a list such as "3-5,8"."""
     numbers: list[int] = []
     for part in ranges.split(","):
         first, _, last = part.partition("-")
@@ -87,7 +87,7 @@ def read_rtl(path: Path) -> dict[str, RtlFile]:
 
 
 def read_cpp(path: Path) -> dict[str, tuple[Counter, Counter]]:
-    """Lines and branches of each library."""
+    """Counters of lines and branches for each library."""
     libraries: dict[str, tuple[Counter, Counter]] = defaultdict(lambda: (Counter(), Counter()))
     for file in json.loads(path.read_text())["files"]:
         parts = file["filename"].split("/")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What other tools than the project's own read the RTL by: dtof.core (FuseSoC), Bender.yml and hdl/dtof_no_srams.f,
+"""File lists by which other tools read the RTL: dtof.core (FuseSoC), Bender.yml and hdl/dtof_no_srams.f,
 written from hdl/dtof.f and readouts.toml by scripts/generate.py."""
 
 import json
@@ -26,12 +26,12 @@ BENCH = {"ACQUISITIONS": "of the example's frame"}
 
 
 def version() -> str:
-    """The project's, which CMakeLists.txt has."""
+    """The project's version, from CMakeLists.txt."""
     return found_in("CMakeLists.txt", r"^project\(dtof_readout VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
 
 
 def split(text: str) -> tuple[list[str], list[str], list[str]]:
-    """The files of hdl/dtof.f in three parts: package, technology, the rest."""
+    """The files of hdl/dtof.f in three lists: package, technology, all others."""
     files = [line for line in text.splitlines() if re.fullmatch(r"[a-z_/0-9]+\.sv", line)]
     part = lambda folder: [name for name in files if name.startswith(folder)]  # noqa: E731
     package, technology = [name for name in files if name.endswith("_pkg.sv")], part("technology/behavioural/")
@@ -55,12 +55,12 @@ def without_srams(listing: str) -> str:
 
 
 def entries(names: list[str], indent: int) -> list[str]:
-    """Files of hdl/, from the root on."""
+    """File names below hdl/ as list entries relative to the root."""
     return [f"{' ' * indent}- hdl/{name}" for name in names]
 
 
 def parameters(table: Table) -> dict[str, str]:
-    """Name and help of what can be chosen of dtof_subsystem."""
+    """Names and help texts of the free parameters of dtof_subsystem."""
     numbers = [(readout.number, readout.title) for readout in table.readouts.values() if readout.number is not None]
     numbers += [(top.readout, next(readout.title for readout in table.readouts.values() if readout.top == top.name))
                 for top in table.tops.values() if top.readout is not None]  # fmt: skip
@@ -168,5 +168,5 @@ def bender(listing: str) -> str:
 
 
 def included(hdl: Path) -> list[str]:
-    """The files that the RTL includes."""
+    """Files that the RTL includes."""
     return sorted(str(file.relative_to(hdl)) for file in hdl.glob("common/*.svh"))

@@ -61,7 +61,7 @@ sim -q -r counterexample.aiw -map model.aim -vcd counterexample.vcd -clock clk_i
 
 
 class FormalError(Exception):
-    """Something that is wrong with the proof itself rather than with the design."""
+    """A fault of a proof itself, not of the design."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ class Job:
 
 @dataclass
 class Row:
-    """What the report says about a proof."""
+    """A proof's row in the report."""
 
     proof: Proof
     seconds: float = 0.0
@@ -152,14 +152,14 @@ def load_proofs() -> list[Proof]:
 
 
 def design_files() -> list[Path]:
-    """RTL of the file list. The SRAMs are those for proofs."""
+    """RTL of the file list, with SRAM models for proofs."""
     lines = (HDL / "dtof.f").read_text().splitlines()
     files = [HDL / line for line in lines if line.endswith(".sv") and not line.startswith(("//", "technology/"))]
     return files + [FORMAL / "dtof_sram_1r1w.sv", FORMAL / "dtof_sram_1rw.sv", FORMAL / "arbitrary_value.sv"]
 
 
 def needed_files(harness: Path) -> list[Path]:
-    """The harness and the files of what it instantiates, directly or through others; file and module share a name."""
+    """The harness and the files of all modules below it; a module's file has its name."""
     design = design_files()
     needed = {harness}
     found = {harness}
@@ -174,7 +174,7 @@ def needed_files(harness: Path) -> list[Path]:
 
 
 def with_bug(files: list[Path], bug: Bug, folder: Path) -> list[Path]:
-    """The same files, one of them a copy with the bug."""
+    """The same files, with the bug planted in a copy of one."""
     source = HDL / bug.file
     text = source.read_text()
     if source not in files:
@@ -187,7 +187,7 @@ def with_bug(files: list[Path], bug: Bug, folder: Path) -> list[Path]:
 
 
 def run_tool(command: list[str], folder: Path, log: str, cpu_seconds: int) -> tuple[str, float]:
-    """Output and processor time of a command, which is killed when it has used that many seconds."""
+    """Output and processor time of a command. The command is killed after `cpu_seconds`."""
     with (folder / log).open("w") as file:
         process = subprocess.Popen(
             ["prlimit", f"--cpu={cpu_seconds}", *command], cwd=folder, stdout=file, stderr=subprocess.STDOUT
@@ -226,7 +226,7 @@ def without_comments(text: str) -> str:
 
 
 def solve(job: Job) -> Outcome:
-    """The outcome of a run, taken over from an earlier one with the same sources and commands."""
+    """The outcome of a run. Reused if an earlier run had the same sources and commands."""
     proof, folder = job.proof, job.folder()
     folder.mkdir(parents=True, exist_ok=True)
     files = needed_files(FORMAL / f"{proof.harness}.sv")
@@ -270,7 +270,7 @@ def solve(job: Job) -> Outcome:
 
 
 def judge(job: Job, outcome: Outcome, row: Row) -> str:
-    """Notes the outcome for the report. Returns a sentence if it is not what is expected."""
+    """Notes the outcome in the report. Returns a sentence if it is unexpected."""
     proof = job.proof
     place = job.folder().relative_to(ROOT)
     if job.kind == "prove":

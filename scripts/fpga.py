@@ -75,20 +75,20 @@ class Outcome:
 
 
 def sources() -> list[str]:
-    """For Yosys, from hdl/: the list of all RTL with the FPGA's memories, and the demonstrator."""
+    """Files for Yosys, relative to hdl/: all RTL with the FPGA's memories, and the demonstrator."""
     files = [str(Path(file).relative_to(HDL)) if Path(file).is_absolute() else file
              for file in fpga_check.source_files(HDL / "technology/fpga")]  # fmt: skip
     return [*files, *sorted(f"../{file.relative_to(ROOT)}" for file in FOLDER.glob("*.sv"))]
 
 
 def parameters() -> dict[str, int]:
-    """The top's parameters, as it declares them."""
+    """Parameters of the top with their default values."""
     text = (FOLDER / f"{TOP}.sv").read_text(encoding="utf-8")
     return {name: int(value) for name, value in re.findall(r"^ +parameter int (\w+) = (\d+),?$", text, re.MULTILINE)}
 
 
 def run(command: list[str], log: str, folder: Path = BUILD) -> str:
-    """What the command prints, which is kept in build/fpga/, too."""
+    """Runs a command; returns its output and stores it in build/fpga/."""
     result = subprocess.run(command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
     (BUILD / log).write_text(result.stdout, encoding="utf-8")
     if result.returncode != 0:
@@ -98,7 +98,7 @@ def run(command: list[str], log: str, folder: Path = BUILD) -> str:
 
 
 def synthesise(design: Design) -> dict[str, int]:
-    """Cells by type. Writes the netlist for nextpnr and for simulation, and the cells' models beside it."""
+    """Number of cells by type. Writes the netlist for nextpnr and for simulation, and models of its cells."""
     settings = " ".join(f"-set {name} {value}" for name, value in design.settings.items())
     # Yosys looks into the modules with their defaults, too, where the FPGA's clock gate would stop it.
     script = (f"read_verilog -sv -DSYNTHESIS -Icommon {' '.join(sources())}; chparam -set CLOCK_WAITS 0 dtof_subsystem; "
@@ -112,7 +112,7 @@ def synthesise(design: Design) -> dict[str, int]:
 
 
 def memories(design: Design) -> int:
-    """Memories of the top, as the behavioural ones say of themselves at the start of a simulation."""
+    """Number of memories in the top: the behavioural memories report themselves at the start of a simulation."""
     program = design.file(".vvp")
     settings = [f"-P{TOP}.{name}={value}" for name, value in design.settings.items()]
     files = [file.replace("technology/fpga/", "technology/behavioural/") for file in sources()]
@@ -190,7 +190,7 @@ def report(outcomes: list[Outcome]) -> str:
 
 
 def passed(design: Design, program: Path) -> str:
-    """What the test of the netlist printed at its end."""
+    """Names of the netlist's tests, which all passed; FlowError if a test failed or none ran."""
     text = run([str(program)], f"{design.name}_netlist_test.log")
     found = re.search(r"\[  PASSED  \] (\d+) tests", text)
     names = re.findall(r"\[       OK \] \w+\.(\w+)", text)
@@ -200,7 +200,7 @@ def passed(design: Design, program: Path) -> str:
 
 
 def kept_outcome(design: Design, tests: Path) -> Outcome:
-    """The outcome of the last run for this design. Runs the test of its netlist."""
+    """Outcome of the last run for this design, after a test of its netlist."""
     kept = json.loads(design.file("_result.json").read_text(encoding="utf-8"))
     found = result(json.loads(design.file("_report.json").read_text(encoding="utf-8")),
                    design.file("_icetime.log").read_text(encoding="utf-8"))  # fmt: skip
@@ -209,7 +209,7 @@ def kept_outcome(design: Design, tests: Path) -> Outcome:
 
 
 def make(design: Design) -> list[str]:
-    """From RTL to the bitstream; what is wrong with it."""
+    """Makes the bitstream from RTL; returns the faults found."""
     kept = design.file("_result.json")
     kept.unlink(missing_ok=True)
     cells, expected = synthesise(design), memories(design)

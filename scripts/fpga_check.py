@@ -31,7 +31,7 @@ from dtof_synth.errors import FlowError  # noqa: E402
 
 @dataclass(frozen=True)
 class Family:
-    """Cells by their names, and how many look-up tables each takes."""
+    """A family's cells by name, and the number of look-up tables in each."""
 
     title: str
     block_ram: str
@@ -64,7 +64,7 @@ def source_files(technology: Path) -> list[str]:
 
 
 def subsystems() -> dict[str, tuple[str, dict[str, int]]]:
-    """By name of a read-out that the subsystem has: title and parameters."""
+    """Title and parameters of each read-out that the subsystem supports, by name."""
     table = readouts.load()
     found = {}
     for name, readout in table.readouts.items():
@@ -78,7 +78,7 @@ def subsystems() -> dict[str, tuple[str, dict[str, int]]]:
 
 
 def memories(parameters: dict[str, int]) -> list[str]:
-    """What every memory of the subsystem says of itself at the start of a simulation."""
+    """Reports of all memories of the subsystem at the start of a simulation."""
     with tempfile.TemporaryDirectory() as folder:
         program = f"{folder}/subsystem.vvp"
         settings = [f"-P{TOP}.{name}={value}" for name, value in parameters.items()]
@@ -89,7 +89,7 @@ def memories(parameters: dict[str, int]) -> list[str]:
 
 
 def counted(family: Family, text: str) -> Counts:
-    """Cells of the text of Yosys's stat."""
+    """Numbers of cells in the output of Yosys's stat."""
     cells = statistics.cells(text)
 
     def total(pattern: str) -> int:
@@ -121,7 +121,7 @@ def mapped(target: str, parameters: dict[str, int], technology: Path) -> Counts:
 
 
 def problem(expected: list[str], counts: Counts) -> str:
-    """What is wrong with the memories, or nothing."""
+    """Fault of the memories; empty if there is none."""
     if counts.table_rams:
         return f"{counts.table_rams} look-up tables are memory"
     if counts.block_rams < len(expected):

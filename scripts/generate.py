@@ -57,7 +57,7 @@ def translated(expression: Expression, name: Callable[[str], str], function: Cal
 
 
 def matching(text: str) -> int:
-    """Where the bracket closes with which the text begins."""
+    """Index of the bracket that closes the bracket at the beginning of the text."""
     depth = 0
     for i, letter in enumerate(text):
         depth += {"(": 1, ")": -1}.get(letter, 0)
@@ -67,7 +67,8 @@ def matching(text: str) -> int:
 
 
 def readout_range(table: Table) -> str:
-    """A file of its own, because dtof_array uses the sentence outside the compilation unit of dtof_pkg, too."""
+    """The file with the range of READOUT. It is a file of its own because dtof_array uses it outside the compilation unit of dtof_pkg,
+    too."""
     last = max(readout.number for readout in table.readouts.values() if readout.number is not None)
     return "\n".join([
         "// SPDX-License-Identifier: Apache-2.0",
@@ -86,7 +87,7 @@ def systemverilog(table: Table) -> str:
         expression, lambda name: own.get(name, name.lower()), lambda name: f"{name}_of")  # fmt: skip
 
     def choice(kind: str, name: str, arguments: str, values: dict[str, Expression], default: str) -> list[str]:
-        """A function of the read-out; read-outs of one value share a line."""
+        """A SystemVerilog function of the read-out. Read-outs with equal values share a line."""
         by_text: dict[str, list[str]] = {}
         for constant, expression in values.items():
             by_text.setdefault(translate(expression), []).append(constant)
@@ -158,18 +159,18 @@ def top_constant(top: Top) -> str:
 
 
 def subsystem_number(table: Table, readout: Readout) -> int | None:
-    """dtof_subsystem's READOUT for it."""
+    """Value of dtof_subsystem's READOUT for a read-out; None if the subsystem does not support it."""
     return readout.number if readout.number is not None else table.tops[readout.top].readout
 
 
 def subsystem_names(table: Table) -> list[str]:
-    """The parameters of dtof_subsystem: those of all arrays, and the schedules that a register recommends."""
+    """Parameters of dtof_subsystem: those of all arrays, and the recommended schedules, which a register shows."""
     return list(dict.fromkeys([*(name for top in table.tops.values() for name in top.parameters),
                                *(name for top in table.tops.values() for name in top.schedule)]))  # fmt: skip
 
 
 def subsystem_parameters(table: Table) -> list[str]:
-    """The parameters of dtof_subsystem: those of all tops, each with the default of the read-out that is chosen."""
+    """Declarations of dtof_subsystem's parameters: those of all tops, with the defaults of the chosen read-out."""
     translate = lambda expression: translated(expression, str, lambda name: f"dtof_pkg::{name}_of")  # noqa: E731
     tops = table.tops.values()
     lines = ["// verilator lint_off UNUSEDPARAM"]  # every array uses its own part
@@ -190,18 +191,18 @@ def subsystem_parameters(table: Table) -> list[str]:
 
 
 def connections(names: list[str]) -> list[str]:
-    """A module's parameters connected to those of the same names."""
+    """Connections of a module's parameters to parameters of the same names."""
     return [f".{name}({name})," for name in names[:-1]] + [f".{names[-1]}({names[-1]})"]
 
 
 def column_header(what: str, rule: str) -> list[str]:
-    """The parameters or the ports that all columns have; a column uses its own part."""
+    """Header with the parameters or ports common to all columns; each column uses some of them."""
     text = (ROOT / "scripts" / "templates" / f"column_{what}.svh").read_text(encoding="utf-8")
     return [f"// verilator lint_off {rule}", *text.split("\n\n", 1)[1].splitlines(), f"// verilator lint_on {rule}"]
 
 
 def inlined(name: str, text: str, lists: dict[str, list[str]]) -> str:
-    """A module with what is written between the marks of each list, as deep as the mark."""
+    """A module in which generated lists replace the text between their marks, with the marks' indentation."""
     for title, lines in lists.items():
         mark = re.compile(rf"^( +)// {title}: written by scripts/generate.py from \S+\n(?:.*\n)*?\1// end of {title}\n", re.MULTILINE)
         found = mark.findall(text)
@@ -216,7 +217,7 @@ def inlined(name: str, text: str, lists: dict[str, list[str]]) -> str:
 
 
 def modules(table: Table) -> dict[str, str]:
-    """The columns of dtof_array; dtof_subsystem, which has a time gate of its own for all arrays; and its bench."""
+    """Generated texts: the columns of dtof_array; dtof_subsystem, which has one time gate for all arrays; and its bench."""
     column = {"parameters of a column": column_header("parameters", "UNUSEDPARAM"),
               "ports of a column": column_header("ports", "UNUSEDSIGNAL")}  # fmt: skip
     arrays = {"parameters of the arrays": subsystem_parameters(table)}
@@ -263,20 +264,20 @@ def cpp_header(table: Table) -> str:
 
 namespace dtof {{
 
-/// The read-outs of the thesis, and ours (docs/reference/readouts.md).
+/// The read-outs of the thesis and of this project (docs/reference/readouts.md).
 enum class Readout : int {{
 {chr(10).join(f"  k{readout.enumerator} = {i}," for i, readout in enumerate(readouts))}
 }};
 
-/// All.
+/// All read-outs.
 inline constexpr std::array<Readout, {len(readouts)}> kAllReadouts = {{
     {array(readouts)}}};
 
-/// Those of the thesis.
+/// The read-outs of the thesis.
 inline constexpr std::array<Readout, {len(thesis)}> kThesisReadouts = {{
     {array(thesis)}}};
 
-/// Those that have RTL, in dtof_array or an array of their own.
+/// The read-outs with RTL, in dtof_array or an array of their own.
 inline constexpr std::array<Readout, {len(hardware)}> kRtlReadouts = {{
     {array(hardware)}}};
 
@@ -286,19 +287,19 @@ std::string_view readout_name(Readout readout);
 std::string_view readout_title(Readout readout);
 /// One sentence on what the read-out does.
 std::string_view readout_summary(Readout readout);
-/// The result is a pointer.
+/// True if the result is a pointer.
 bool is_pointer_readout(Readout readout);
-/// The pixels of an engine's columns help each other.
+/// True for pool read-outs: pixels use the results of other pixels in their engine's columns.
 bool is_pool_readout(Readout readout);
-/// A histogram is scanned on the way to the result.
+/// True if the read-out scans a histogram.
 bool has_histogram(Readout readout);
-/// There is RTL of it.
+/// True if the read-out has RTL.
 bool has_rtl(Readout readout);
-/// Whether a parameter of the RTL can be chosen for the read-out and changes its result, beside NP and SLOTS;
+/// True if an RTL parameter other than NP and SLOTS can be chosen for the read-out and changes its result;
 /// false for an unknown name.
 bool has_parameter(Readout readout, std::string_view parameter);
-/// What the read-out has where nothing else is said, for a parameter of readouts.toml. Throws std::logic_error
-/// for an unknown name.
+/// Default value of a parameter of readouts.toml for the read-out. Throws std::logic_error for an unknown
+/// name.
 int default_value(Readout readout, std::string_view parameter, int np);
 
 }}  // namespace dtof
@@ -446,7 +447,7 @@ def column_files(text: str, table: Table) -> str:
 
 
 def defaults(text: str, table: Table) -> str:
-    """The page of the parameters with a table of defaults for each top."""
+    """The page of parameters with a table of defaults for each top."""
     for top in table.tops.values():
         begin = PARAMETERS_BEGIN.format(top.name)
         if text.count(begin) != 1:
@@ -489,8 +490,7 @@ def studies_table(text: str) -> str:
 
 
 def check_top(name: str, text: str, table: Table) -> list[str]:
-    """What differs between a top module's own parameters and the table's: the module is a contract of its own, written by
-    hand."""
+    """Differences between the parameters of a top module, which is written by hand, and those of the table."""
     declared = re.findall(r"^    parameter int (\w+) = (\w+(?:::\w+)?),", text, re.MULTILINE)
     own = {parameter: value for parameter, value in declared if parameter != "READOUT"}
     np = int(table.parameters["NP"].default)

@@ -21,7 +21,7 @@ CLOCK = "fmax_slow_mhz"
 
 
 def script(rows: list[dict[str, str]], output: Path) -> str:
-    """One picture: a column a parameter, a row a figure."""
+    """Gnuplot script of one picture: a column per parameter, a row per figure."""
     styles = plot_style.load()
     titles = {configuration.readout: configuration.title for configuration in load(ROOT / "configurations.toml").values()
               if not configuration.variant_of}

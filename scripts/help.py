@@ -24,7 +24,7 @@ _CLAUSE = re.compile(r"[;:(]")
 
 
 class HelpError(Exception):
-    """One line that says what is wrong with the list."""
+    """The list has an error; the message is one line."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Group:
 
 
 def report_minutes(root: Path) -> dict[str, float]:
-    """By target, the minutes of the reports that `make TARGET` renews."""
+    """Minutes that the reports of each make target take, by target."""
     found: dict[str, float] = {}
     for report in reports.load(root).values():
         match = re.fullmatch(r"make ([a-z-]+)", report.command)
@@ -73,7 +73,7 @@ def duration(minutes: float) -> str:
 
 
 def line(target: str, says: str, minutes: float | None) -> str:
-    """One line for a target, with the first clause of what it does."""
+    """Help line of a target: its name and the first clause of its description."""
     clause = _CLAUSE.split(says, maxsplit=1)[0].strip().rstrip(",")
     time = "" if minutes is None else duration(minutes)
     return f"  {target:<16} {time:>8}  {textwrap.shorten(clause, WIDTH - 28, placeholder=' ...')}"
@@ -93,7 +93,7 @@ def text(root: Path, everything: bool) -> str:
 
 
 def study(root: Path, name: str) -> str:
-    """The name, if it is that of a study."""
+    """Returns the name if it is a study's; HelpError otherwise."""
     known = [target for group in load(root) if group.is_study for target in group.minutes]
     if name not in known:
         raise HelpError(f"{f'there is no study {name!r}' if name else 'make study needs NAME=...'}; studies are {', '.join(known)}")

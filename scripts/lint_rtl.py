@@ -75,7 +75,7 @@ def run(command: list[str]) -> subprocess.CompletedProcess:
 
 
 def check_read(what: str, top: str, parameters: dict[str, int]) -> list[str]:
-    """Every tool reads an array with these parameters, and Icarus Verilog leaves nothing out."""
+    """Reads an array with these parameters in every tool; Icarus Verilog must not leave anything out."""
     failures = []
     for tool in (verilator, yosys, icarus):
         result = run(tool(top, parameters))
@@ -92,7 +92,7 @@ def check_configuration(configuration: Configuration) -> list[str]:
 
 
 def check_around(top: str, files: list[str], settings: str = "") -> list[str]:
-    """A top around the subsystem, in these files; `settings`: commands of Yosys."""
+    """Reads a top module that contains the subsystem, from these files. `settings`: Yosys commands."""
     commands = {
         "Verilator": ["verilator", "--lint-only", "-Wall", "-f", "dtof_lint.f", "+incdir+common", *files, "--top-module", top],
         "Yosys": ["yosys", "-q", "-p", f"read_verilog -sv -Icommon {' '.join(files)}; {settings}hierarchy -check -top {top}; "
@@ -108,7 +108,7 @@ def check_around(top: str, files: list[str], settings: str = "") -> list[str]:
 
 
 def check_demonstrator() -> list[str]:
-    """The very top of the FPGA, with the FPGA's memories."""
+    """Reads the FPGA's top module with the FPGA's memories."""
     listed = [file.replace("/behavioural/", "/fpga/") for file in source_files()]
     files = [*listed, *sorted(f"../{file.relative_to(ROOT)}" for file in (ROOT / "fpga").glob("*.sv"))]
     # Yosys looks into the default, too.
@@ -116,12 +116,12 @@ def check_demonstrator() -> list[str]:
 
 
 def check_soc() -> list[str]:
-    """The top of the SoC example, by its file list."""
+    """Reads the top of the SoC example by its file list."""
     return check_around(SOC, [*source_files(), *source_files(ROOT / "examples/soc/soc.f")])
 
 
 def check_subsystem(readout: int) -> list[str]:
-    """The subsystem around a read-out, with what is optional and, around one of them, without as much as possible."""
+    """Reads the subsystem around a read-out with all options and, for one read-out, with as few as possible."""
     smallest = {"PIXELS_PER_SRAM": 1, "SRAM_NUM": 1, "BUFFER_LINES": 2, "CONFIDENCE_WIDTH": 0}
     others = [smallest, {"CLOCK_WAITS": 0}, {"SOURCE_WAITS": 0}, {"SOURCE_WAITS": 0, "BUFFER_LINES": 9}]
     chosen = [SIZE[SUBSYSTEM] | {"TIME_GATE": 1, "RASTER_ORDER": 1},
@@ -131,19 +131,19 @@ def check_subsystem(readout: int) -> list[str]:
 
 
 def sorry(output: str) -> list[str]:
-    """Lines in which Icarus Verilog says that it leaves something out, unless it is known and harmless."""
+    """Messages of Icarus Verilog about omitted constructs, except known harmless ones."""
     return [line for line in output.splitlines()
             if "sorry" in line and not any(known in line for known in HARMLESS_SORRY)]
 
 
 def check_misread(sources: dict[str, str]) -> list[str]:
-    """Constructs that a tool silently reads wrongly, in the texts of the RTL files."""
+    """Uses of constructs that a tool silently misinterprets."""
     return [f"{name}:{text.count(chr(10), 0, found.start()) + 1}: {why}"
             for name, text in sources.items() for pattern, why in MISREAD for found in pattern.finditer(text)]
 
 
 def check_nettype(sources: dict[str, str]) -> list[str]:
-    """Every file turns implicit nets off in front of its first module and on behind its last one, and takes any time scale."""
+    """Files that do not turn implicit nets off before their first module and on after their last one, or that set a time scale."""
     failures = []
     for name, text in sources.items():
         head, first = HEAD.search(text), FIRST.search(text)
@@ -156,7 +156,7 @@ def check_nettype(sources: dict[str, str]) -> list[str]:
 
 
 def check_file_list() -> list[str]:
-    """The commands in the head of dtof.f, as a user runs them."""
+    """Runs the commands in the header of dtof.f as a user does."""
     head = (HDL / "dtof.f").read_text().splitlines()
     commands = [line[2:].strip() for line in head if re.match(r"// +(verilator|iverilog|yosys) ", line)]
     failures = [] if len(commands) == 3 else [f"hdl/dtof.f: its head has {len(commands)} commands instead of three"]
@@ -196,7 +196,8 @@ def check_block_rams() -> list[str]:
 
 
 def parameter_limits() -> list[tuple[str, dict[str, int], str]]:
-    """(top, settings, sentence; empty if they are legal) of every line of the table, and READOUT beyond its limits."""
+    """(top, settings, sentence) for every line of the table, and for READOUT beyond its limits. The sentence is empty for legal
+    settings."""
     lines = [line for line in PARAMETER_LIMITS.read_text().splitlines() if not line.startswith("#")]
     rows = [line.split(",", 2) for line in lines[1:]]
     most = max(readout.number for readout in readouts.load().readouts.values() if readout.number is not None)
@@ -222,7 +223,7 @@ def check_limit(top: str, settings: dict[str, int], sentence: str) -> list[str]:
 
 
 def check_sentences(limits: list[tuple[str, dict[str, int], str]]) -> list[str]:
-    """Every requirement of the tops is in the table of limits."""
+    """Checks that the table of limits has every requirement of the tops."""
     failures = []
     for top in SIZE:
         (source,) = HDL.glob(f"*/{top}.sv")

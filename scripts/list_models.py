@@ -33,7 +33,7 @@ def line(name: str, configuration: Configuration, **size: int) -> str:
 
 
 def engine_widths(configuration: Configuration) -> list[int]:
-    """Columns of the engines of an array: all have ENGINE_COLUMNS, but for the last one."""
+    """Widths of an array's engines: all ENGINE_COLUMNS, except perhaps the last one."""
     columns, together = configuration["SRAM_NUM"], configuration["ENGINE_COLUMNS"]
     return sorted({min(columns, together), columns % together or together}, reverse=True)
 

@@ -36,7 +36,7 @@ def judged(language: str, arguments: argparse.Namespace) -> list[Verdict]:
 
 
 def failures(parts: Mapping[str, Sequence[Verdict]]) -> list[str]:
-    """Why the run is not good enough."""
+    """Reasons why the run fails."""
     found = []
     for language, verdicts in parts.items():
         share = report.killed_share(verdicts)

@@ -45,7 +45,7 @@ def rows(name: str) -> list[dict[str, str]]:
 
 
 class Scenes:
-    """Figures of estimators on scenes; over several scenes, weighted by pixels."""
+    """Figures of estimators by scene; figures over several scenes are weighted by pixels."""
 
     def __init__(self) -> None:
         self.rows = {}
@@ -62,7 +62,7 @@ class Scenes:
         return [name for name in found if name.startswith("flat") == flats]
 
     def overall(self, klux: str, estimator: str) -> tuple[float, float] | None:
-        """Share above 3 % and relative rmse over all scenes but the flats."""
+        """Share of errors above 3 % and relative rmse over all scenes except the flat ones."""
         chosen = [self.rows.get((PRESET, klux, scene, estimator)) for scene in self.names(flats=False)]
         if not chosen or None in chosen:
             return None
@@ -73,7 +73,7 @@ class Scenes:
 
 
 def estimator_title(configuration, base) -> str:
-    """As `dtof-study scenes` names it: parameters that change results follow the read-out's title."""
+    """Title as in `dtof-study scenes`: the read-out's title followed by the parameters that change results."""
     title = base.title
     for name in ("COUNT_WIDTH", "FRACTION_BITS", "WINDOW_CENTRED"):
         if configuration.parameters.get(name) != base.parameters.get(name):
@@ -93,7 +93,7 @@ class Point:
 
 
 def collect(scenes: Scenes) -> tuple[list[Point], list[str]]:
-    """Points, and what is missing."""
+    """Points of the diagram, and the names of configurations without figures."""
     configurations = load(ROOT / "configurations.toml")
     area = {row["configuration"]: row for row in rows("area.csv")}
     missing = [name for name in POOL_CONFIGURATIONS if name not in area]
@@ -121,7 +121,7 @@ def collect(scenes: Scenes) -> tuple[list[Point], list[str]]:
 # ---- Goals -----------------------------------------------------------------------------------------------
 
 def goals(scenes: Scenes) -> list[tuple[str, str, str]]:
-    """Goal, measured, met."""
+    """(goal, measured value, whether it is met) for each goal."""
     table = []
     area = {row["configuration"]: row for row in rows("area.csv")}
     slow = {row["configuration"]: row for row in rows("timing.csv") if row["corner"] == "slow"}
@@ -221,7 +221,8 @@ class Panel:
 
 def place_labels(panel: Panel, labels: list[tuple[str, float, float]],
                  marks: list[tuple[float, float]]) -> list[tuple[str, float, float, bool]]:
-    """Left edge and middle of each text such that it covers no mark and no other text; whether it needs a line."""
+    """Positions (left edge, middle) at which the labels cover neither marks nor each other, and whether a label needs a line to its
+    mark."""
     taken = [(x - 7, y - 7, x + 7, y + 7) for x, y in marks]
     placed = []
     for text, x, y in sorted(labels, key=lambda label: label[2]):

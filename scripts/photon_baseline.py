@@ -48,7 +48,7 @@ def by_acquisition(generator, depth):
 
 
 def by_frame(generator, depth):
-    """The same without visiting acquisitions."""
+    """As by_acquisition, but without a loop over acquisitions."""
     signal_count = generator.poisson(SIGNAL_AT_1M / depth**2 * ACQUISITIONS)
     background_count = generator.poisson(BACKGROUND * ACQUISITIONS)
     count = signal_count + background_count

@@ -28,7 +28,7 @@ Pixel = tuple[int, ...]
 
 
 class Frame:
-    """What one run came to: code, fraction and confidence of each pixel, and figures, by read-out."""
+    """Results of a run by read-out: code, fraction and confidence of each pixel, and figures."""
 
     def __init__(self) -> None:
         self.pixels: dict[str, list[Pixel]] = {}
@@ -97,7 +97,7 @@ class Playground(unittest.TestCase):
         self.assertEqual([url for url in self.browser.requests if not url.startswith(("file:", "blob:", "data:"))], [])
 
     def wait(self) -> str:
-        """For the end of the run; returns the page's state."""
+        """Waits for the end of the run; returns the page's state."""
         end = time.monotonic() + SECONDS
         while time.monotonic() < end:
             state = self.browser.evaluate("document.body.dataset.state ?? 'running'")
@@ -110,7 +110,7 @@ class Playground(unittest.TestCase):
         return str(self.browser.evaluate("document.getElementById('status').textContent"))
 
     def set(self, settings: dict[str, object], readouts: list[str] | None = None) -> None:
-        """Fills the form in as a user does, and sends it."""
+        """Fills in the form as a user does, and submits it."""
         for name, value in settings.items():
             self.browser.evaluate(f"form.elements.{name}.value = '{value}';"
                                   f"form.elements.{name}.dispatchEvent(new Event('input', {{bubbles: true}}))")
@@ -120,7 +120,7 @@ class Playground(unittest.TestCase):
         self.browser.evaluate("form.requestSubmit()")
 
     def shown(self) -> Frame:
-        """The frame on the page; its figures are those of the table."""
+        """The frame on the page, with the figures of the table."""
         frame = Frame()
         results = self.browser.evaluate("frames.map(f => [f.readout, [...f.results], f.figures])")
         for name, values, figures in results:

@@ -30,14 +30,14 @@ class Style:
 
 
 def load(file: Path = FILE) -> list[Style]:
-    """Read-outs first, then what `file` has."""
+    """Styles of the read-outs, then those in `file`."""
     of_readouts = [Style(readout.title, **readout.style) for readout in readouts.load().readouts.values()]
     with file.open("rb") as opened:
         return of_readouts + [Style(**entry) for entry in tomllib.load(opened)["style"]]
 
 
 def style(label: str, styles: list[Style]) -> Style:
-    """That of the longest title which the label begins with."""
+    """Style with the longest title that begins the label."""
     found = [one for one in styles if label == one.title
              or label.startswith(one.title) and not label[len(one.title)].isalnum()]
     if not found:

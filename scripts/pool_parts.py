@@ -65,7 +65,7 @@ def costs(path: Path) -> dict[tuple[str, str], dict[str, float]]:
 
 
 def errors(path: Path) -> dict[tuple[str, str], tuple[float, float]]:
-    """Shares above 3 % and 10 % of all scenes' pixels, by estimator and light."""
+    """Shares of errors above 3 % and 10 % over all scenes' pixels, by estimator and light level."""
     sums: dict[tuple[str, str], list[float]] = {}
     with path.open(newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):

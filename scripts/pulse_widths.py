@@ -32,7 +32,7 @@ WALL = "flat 3 m"
 
 
 def sensor_of(bins: int, preset: str) -> str:
-    """The preset with a pulse of so many bins."""
+    """Sensor file of the preset with a pulse of `bins` bins."""
     table = tomllib.loads(preset)
     width = bins * table["tdc"]["range_ns"] / 2 ** table["tdc"]["timestamp_bits"]
     return (preset.replace('name = "thesis"', f'name = "fwhm{bins}"')
@@ -61,8 +61,8 @@ class Figures:
 
 
 def rows_of(estimator: str, titles: set[str]) -> list[str]:
-    """Rows of the tables that an estimator belongs to; `titles`: of a sensor. Where the pulse asks for the windows for 45 bins,
-    both are the same."""
+    """Table rows of an estimator; `titles`: the sensor's estimators. If the pulse needs the windows for 45 bins anyway, both rows are the
+    same."""
     title, changed, _ = estimator.partition(WINDOWS_FOR_45)
     if changed:
         return [title + FIXED]
@@ -70,7 +70,7 @@ def rows_of(estimator: str, titles: set[str]) -> list[str]:
 
 
 def read(path: Path) -> dict[tuple[str, int, str], Figures]:
-    """By light, width and estimator."""
+    """Figures by light level, width and estimator."""
     found: dict[tuple[str, int, str], Figures] = defaultdict(Figures)
     with path.open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))

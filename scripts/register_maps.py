@@ -25,7 +25,7 @@ def version(whole: Map) -> str:
 
 
 def register_access(register: Register) -> str:
-    """Access of the whole register: that of its fields, or read and write where they differ."""
+    """Access of the whole register: the fields' access, or read-write if they differ."""
     accesses = {XML_ACCESS[field.access] for field in register.fields}
     return accesses.pop() if len(accesses) == 1 else "read-write"
 
@@ -152,7 +152,7 @@ def svd(whole: Map) -> str:
 
 
 def files(whole: Map) -> dict[str, str]:
-    """By name: every map."""
+    """All register maps by file name."""
     return {f"driver/maps/{NAME}.rdl": systemrdl(whole), f"driver/maps/{NAME}.ipxact.xml": ipxact(whole),
             f"driver/maps/{NAME}.svd": svd(whole)}  # fmt: skip
 

@@ -42,7 +42,7 @@ class Field:
 
     @property
     def reset_value(self) -> int | None:
-        """What it reads behind a reset; None where the parameters decide."""
+        """Value after a reset; None if it depends on parameters."""
         if isinstance(self.reset, int):
             return self.reset
         return None if self.reset == BY_PARAMETERS or self.access == "constant" else 0
@@ -70,7 +70,7 @@ class Register:
 
     @property
     def reset_mask(self) -> int:
-        """Bits whose value behind a reset is the same for all parameters. Those without a field read as 0."""
+        """Bits whose value after a reset is the same for all parameters; bits without a field read as 0."""
         return ((1 << REGISTER_BITS) - 1) & ~sum(field.mask for field in self.fields if field.reset_value is None)
 
     @property
@@ -143,7 +143,7 @@ def load() -> Map:
 
 def systemverilog(whole: Map) -> str:
     def within(registers: list[Register]) -> str:
-        """A condition of `offset`: neighbours share a comparison."""
+        """Condition on `offset` that is true for these registers; neighbours share a comparison."""
         spans: list[list[int]] = []
         for register in sorted(registers, key=lambda register: register.offset):
             if spans and spans[-1][1] + 4 == register.offset:
@@ -191,7 +191,7 @@ def c_header(whole: Map) -> str:
     lines = [
         "/* SPDX-License-Identifier: Apache-2.0",
         f" * {WRITTEN}",
-        " * Offsets in bytes; of each field the lowest bit and the mask of its bits at their place. */",
+        " * Register offsets are in bytes. Each field has its lowest bit (LSB) and the mask of its bits in the register. */",
         "#ifndef DTOF_REGISTERS_H",
         "#define DTOF_REGISTERS_H",
         "",
@@ -211,7 +211,7 @@ def c_header(whole: Map) -> str:
             lines.append(f"#define DTOF_{register.name}_NUMBER {register.number}")
         for field in register.fields:
             lines += field_lines(f"DTOF_{register.name}", field, REGISTER_BITS)
-    lines += ["", "/* X(offset, registers, value behind a reset, bits of it that no parameter decides) for each of them. */",
+    lines += ["", "/* X(offset, registers, value after a reset, bits of it that do not depend on parameters) for each register. */",
               "#define DTOF_FOR_EACH_REGISTER(X) \\"]  # fmt: skip
     for register in whole.registers:
         end = "" if register is whole.registers[-1] else " \\"

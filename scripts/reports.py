@@ -102,7 +102,8 @@ def stale(_: argparse.Namespace, known: dict[str, Report]) -> int:
 
 
 def stale_check(_: argparse.Namespace, known: dict[str, Report]) -> int:
-    """A page that says on its first line that it is stale is no error here, but what README.md and the page of results show is."""
+    """Fails for stale figures in README.md or on the page of results, and for stale reports that take at most two minutes. A page with a
+    stale mark is no error."""
     tree = SourceTree(ROOT)
     found = staleness.stale(ROOT, known, tree)
     known_figures = store.load(ROOT)

@@ -69,7 +69,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Axis:
-    """What accuracy is drawn over."""
+    """Quantity on the horizontal axis of a picture."""
 
     name: str  # in the file's name
     label: str
@@ -82,7 +82,7 @@ AXES = (Axis("bits", "memory, bits per pixel", lambda point: point.bits),
 
 
 def known_bits(area: Path) -> dict[str, str]:
-    """Bits per pixel by the read-outs' names on the command line."""
+    """Bits per pixel by the read-outs' command-line names."""
     if not area.is_file():
         return {}
     with area.open(newline="", encoding="utf-8") as file:
@@ -91,7 +91,7 @@ def known_bits(area: Path) -> dict[str, str]:
 
 
 def known_areas(area: Path) -> dict[str, float]:
-    """mm2 of the thesis's array by the read-outs' titles."""
+    """Area of the thesis's array in mm2, by the read-outs' titles."""
     known = rival_area.load(ROOT / "configurations.toml")
     with area.open(newline="", encoding="utf-8") as file:
         return {known[row["configuration"]].title: float(row["total_mm2"]) for row in csv.DictReader(file)
@@ -100,7 +100,7 @@ def known_areas(area: Path) -> dict[str, float]:
 
 
 def estimated(hardware: Path) -> dict[str, tuple[float, int]]:
-    """(mm2, host's operations) of each row of a rival, by its title; pooling is the host's work alone."""
+    """(mm2, host's operations) for each row of a rival, by title. Pooling adds work for the host only."""
     base = rival_area.Base.read(AREA)
     found = {}
     with hardware.open(newline="", encoding="utf-8") as file:
@@ -114,7 +114,7 @@ def estimated(hardware: Path) -> dict[str, tuple[float, int]]:
 
 
 def points_of(path: Path) -> dict[str, list[Point]]:
-    """By light: all scenes with depth together."""
+    """Points by light level, over all scenes with depth."""
     areas = known_areas(AREA) if AREA.is_file() else {}
     hardware = path.parent / "rival_hardware.csv"
     rivals = estimated(hardware) if hardware.is_file() else {}
@@ -134,7 +134,7 @@ def points_of(path: Path) -> dict[str, list[Point]]:
 
 
 def front(points: Iterable[Point], value: Callable[[Point], float | None] = AXES[0].value) -> list[Point]:
-    """What no other is better than at as little of an axis."""
+    """Points of the front: no other point is better with as little of the axis's quantity."""
     best, found = math.inf, []
     for point in sorted((p for p in points if value(p)), key=lambda p: (value(p), p.percent)):
         if point.percent < best:
@@ -144,7 +144,7 @@ def front(points: Iterable[Point], value: Callable[[Point], float | None] = AXES
 
 
 def script(klux: str, points: list[Point], axis: Axis, output: Path) -> str:
-    """A gnuplot script that draws numbered points with a legend of the numbers beside them."""
+    """Gnuplot script with numbered points and a legend of the numbers beside them."""
     styles = plot_style.load()
     shown = sorted((p for p in points if axis.value(p)), key=lambda p: (axis.value(p), p.percent))
     level = lambda percent: max(percent, LEAST_PERCENT)  # noqa: E731
@@ -236,7 +236,7 @@ def cost_section(lights: dict[str, list[Point]]) -> str:
 
 
 def best_within(points: Iterable[Point], budget: float) -> Point | None:
-    """The one with the fewest errors; of equals the smallest, then the least work."""
+    """Point with the fewest errors within the budget; of equal points the smallest, then the one with least work."""
     within = [p for p in points if p.mm2 and p.mm2 <= budget]
     return min(within, key=lambda p: (p.percent, p.mm2, p.operations), default=None)
 

@@ -18,7 +18,7 @@ _ELSEWHERE = r"(?<![.\w:$`'])"
 
 
 def _without_comments(text: str) -> str:
-    """As many lines and characters, with blanks for comments and strings."""
+    """The text with blanks in place of comments and strings; lines and columns stay."""
     return _COMMENT.sub(_blank, text)
 
 
@@ -31,7 +31,8 @@ def _line(text: str, place: int) -> int:
 
 
 def declared_before_use(sources: dict[str, str]) -> list[str]:
-    """slang, VCS, Questa and Xcelium refuse a name in front of its declaration; Verilator, Yosys and Icarus Verilog take it."""
+    """Uses of a name before its declaration. slang, VCS, Questa and Xcelium refuse them; Verilator, Yosys and Icarus Verilog accept
+    them."""
     failures = []
     for name, text in sources.items():
         code = _APART.sub(_blank, _without_comments(text))
@@ -60,7 +61,7 @@ def readable_headers(sources: dict[str, str]) -> list[str]:
 
 
 def no_shared_types(sources: dict[str, str]) -> list[str]:
-    """Yosys 0.41 to 0.52 stop at members of a type that stands in no module and no package."""
+    """Uses of members of a type that is declared in no module and no package, at which Yosys 0.41 to 0.52 stop."""
     failures = []
     for name, text in sources.items():
         code = _BODY.sub(_blank, _without_comments(text))

@@ -75,7 +75,7 @@ class Field:
 
 
 def structs(text: str) -> dict[str, list[tuple[str, str, int, str]]]:
-    """Type, name, width and meaning of the fields of every struct."""
+    """Fields of every struct by type: name, width and meaning."""
     found = {}
     for body, name in STRUCT.findall(text):
         found[name] = []
@@ -104,7 +104,7 @@ def all_fields(known: dict[str, list[tuple[str, str, int, str]]]) -> list[Field]
 
 
 def simulated(configuration: Configuration) -> list[list[str]]:
-    """Operation, pass, clock of the step and commands in every clock of a frame."""
+    """Simulates a frame. Returns, for every clock, operation, pass, clock of the step, and commands."""
     parameters = configuration.rtl_parameters() | SMALL
     bench_text = BENCH.replace("PARAMETERS", ", ".join(f".{name}({value})" for name, value in parameters.items()))
     bench_text = bench_text.replace("ACQ_WIDTH'", f"{parameters['ACQ_WIDTH']}'")
@@ -146,7 +146,7 @@ def schedule(configuration: Configuration, fields: list[Field]) -> Schedule:
 
 
 def ranges(clocks: set[int]) -> str:
-    """0, 8, 16, 24; 7 to 38; 0, 4, ..., 28."""
+    """Text of a set of clocks: "0, 8, 16, 24", "7 to 38" or "0, 4, ..., 28"."""
     runs: list[list[int]] = []
     for clock in sorted(clocks):
         if runs and clock == runs[-1][-1] + 1:

@@ -34,7 +34,7 @@ def is_installed() -> bool:
 
 
 def install() -> str:
-    """What is wrong, or nothing."""
+    """Installs slang; returns the fault, or an empty text."""
     if is_installed():
         return ""
     FOLDER.mkdir(parents=True, exist_ok=True)

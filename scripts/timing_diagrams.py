@@ -71,7 +71,7 @@ DIAGRAMS = (
 
 
 def simulated(folder: str, parameters: dict[str, int]) -> str:
-    """What the bench prints; a waveform is left in the folder."""
+    """Output of the bench; a waveform is left in the folder."""
     program = f"{folder}/bench.vvp"
     settings = [f"-P{BENCH}.{name}={value}" for name, value in parameters.items()]
     try:
@@ -87,7 +87,7 @@ def simulated(folder: str, parameters: dict[str, int]) -> str:
 
 @dataclass
 class Waveform:
-    """Values of signals in each clock, as they are at its rising edge; by names from the bench."""
+    """Values of signals at the rising edge of each clock, by their names in the bench."""
 
     names: dict[str, list[str]] = field(default_factory=dict)  # of an identifier
     clocks: list[dict[str, str]] = field(default_factory=list)
@@ -124,7 +124,7 @@ def waveform(vcd: str) -> Waveform:
 
 
 def wavedrom(diagram: Diagram, wave: Waveform) -> dict:
-    """A diagram as WaveDrom has it: a letter a clock, a dot for what stays."""
+    """A diagram in WaveDrom's format: a letter per clock, a dot for an unchanged value."""
     clocks = [clock for clock in wave.clocks if int(clock["diagram"], 2) == diagram.number]
     if not clocks:
         raise FlowError(f"{BENCH} has no diagram {diagram.number}")
@@ -152,7 +152,7 @@ def wavedrom(diagram: Diagram, wave: Waveform) -> dict:
 
 
 def svg(source: dict) -> str:
-    """The part of WaveDrom's JSON that wavedrom() writes, drawn."""
+    """SVG drawing of the part of WaveDrom's JSON that wavedrom() writes."""
     clock, height, gap, left, top, slope = 44, 18, 12, 176, 34, 3
     clocks = len(source["signal"][0]["wave"])
     width, total = left + clocks * clock + 12, top + len(source["signal"]) * (height + gap) + 18
@@ -201,7 +201,7 @@ def svg(source: dict) -> str:
 
 
 def frame_clocks() -> str:
-    """The table of the page."""
+    """Table with the clocks of a frame for each read-out."""
     table = readouts.load()
     size = f"{FRAME['COLUMNS']} columns of {FRAME['ROWS']} pixels, {FRAME['ACQUISITIONS']} acquisitions"
     lines = [

@@ -59,7 +59,7 @@ def run_scenes(dtof: str, scenes: tuple[str, ...], klux: tuple[str, ...], column
 
 
 def by_variant(rows: list[dict[str, str]], count: int) -> list[dict[tuple[str, str], dict[str, str]]]:
-    """Rows of each variant by scene and light. A scene's rows are in the command line's order, behind ezPointer's."""
+    """Rows of each variant by scene and light level. A scene's rows follow ezPointer's, in the command line's order."""
     found: list[dict[tuple[str, str], dict[str, str]]] = [{} for _ in range(count)]
     places: dict[tuple[str, str], int] = {}
     for row in rows:
@@ -71,7 +71,7 @@ def by_variant(rows: list[dict[str, str]], count: int) -> list[dict[tuple[str, s
 
 
 def share(rows: dict[tuple[str, str], dict[str, str]], klux: str, column: str) -> float:
-    """Per cent of the pixels of all scenes but the flats."""
+    """Share in per cent of the pixels of all scenes except the flat ones."""
     chosen = [row for (light, scene), row in rows.items() if light == klux and not scene.startswith("flat")]
     pixels = sum(int(row["pixels"]) for row in chosen)
     return 100 * sum(int(row["pixels"]) * float(row[column]) for row in chosen) / pixels
@@ -94,7 +94,7 @@ def measure(dtof: str, points: list[Point]) -> None:
 
 
 def read(points: list[Point]) -> None:
-    """Their figures as reports/trade.csv has them."""
+    """Sets the points' figures from reports/trade.csv."""
     with (REPORTS / "trade.csv").open(newline="", encoding="utf-8") as file:
         found = {row["variant"]: row for row in csv.DictReader(file)}
     for point in points:
@@ -166,13 +166,13 @@ def rank_correlation(pairs: list[tuple[float, float]]) -> float:
 
 
 def change(tau: float, falls: str, rises: str) -> str:
-    """What a rank correlation says of a figure; half of the pairs more one way than the other count as a trend."""
+    """Words for a rank correlation. A trend needs half of the pairs more in one direction than in the other."""
     trend = falls if tau <= -0.5 else rises if tau >= 0.5 else None
     return f"{trend} (rank correlation {tau:+.2f})" if trend else f"no clear trend (rank correlation {tau:+.2f})"
 
 
 def schedule_sentence(schedules: list[Point]) -> str:
-    """How the phases' lengths and the figures go together."""
+    """Sentence on the relation between the phases' lengths and the figures."""
     phases = [(point, *(int(share) for share in point.label.split("/"))) for point in schedules]
     lost = rank_correlation([(coarse, point.figures["lost_14klux"]) for point, coarse, _ in phases])
     wrong = rank_correlation([(coarse, point.figures["outliers_50klux"]) for point, coarse, _ in phases])
@@ -184,7 +184,7 @@ def schedule_sentence(schedules: list[Point]) -> str:
 
 
 def candidate_sentence(candidates: list[Point]) -> str:
-    """How number and width of the candidates go with the figures, and what a bit of the score does."""
+    """Sentence on the relation of the candidates' number and width to the figures, and on the effect of a score bit."""
     sizes = {tuple(int(part) for part in point.label.split("x")): point for point in candidates}
     lost = rank_correlation([(labels, point.figures["lost_14klux"]) for (labels, _), point in sizes.items()])
     cost = rank_correlation([(labels, point.mm2) for (labels, _), point in sizes.items()])

@@ -32,7 +32,7 @@ QUICK_MINUTES = 1.0
 
 
 class TryError(Exception):
-    """One line that says what is wrong."""
+    """An error with a one-line message."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Plan:
 
 
 def load(root: Path) -> dict[str, Plan]:
-    """The list, which has each target of the makefiles and no other."""
+    """The list, with exactly the targets of the makefiles."""
     path = root / LIST
     if not path.is_file():
         raise TryError(f"{LIST} is missing")
@@ -83,7 +83,7 @@ def git(folder: Path, *arguments: str) -> str:
 
 
 def copy(root: Path, tree: Path) -> str:
-    """The last commit as `tree`, which keeps its build/. The commit."""
+    """Copies the last commit to `tree`, which keeps its build/; returns the commit."""
     commit = git(root, "rev-parse", "HEAD").strip()
     if not (tree / ".git").exists():
         shutil.rmtree(tree, ignore_errors=True)
@@ -108,7 +108,7 @@ def changed_files(tree: Path) -> list[str]:
 
 
 def run_make(plan: Plan, tree: Path, log: Path, limit_minutes: float) -> str:
-    """Empty, or why the target did not pass."""
+    """Runs a target; returns why it failed, or an empty text."""
     command = ["make", plan.target, "SMALL=1", *shlex.split(plan.arguments)]
     environment = {key: value for key, value in os.environ.items() if key not in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS", "MAKEOVERRIDES")}
     with log.open("w", encoding="utf-8") as output:

@@ -25,7 +25,7 @@ ABOVE = "_above_3_percent"
 
 
 class Results:
-    """Figures by their names, and the reports that they come from."""
+    """Figures by name, and the reports from which they come."""
 
     def __init__(self, root: Path) -> None:
         self.root = root
@@ -68,7 +68,7 @@ class Results:
         return "\n".join(lines) + "\n"
 
     def scene(self) -> str:
-        """What the table's accuracy was measured on: the page's line that names the scene."""
+        """Scene on which the table's accuracy was measured, from the page's line with its name."""
         page = (self.root / "reports" / ("frames.md" if self.sensors else "frame/summary.md")).read_text(encoding="utf-8")
         scene = next(line for line in page.splitlines() if line.startswith("Scene "))
         return (f"\"Pixels off by > 3 %\" have a relative error above 3 %. {scene.removesuffix('.')}. Each read-out's look-up table, "

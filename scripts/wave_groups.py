@@ -60,7 +60,7 @@ def read_signals(header: Iterable[str]) -> list[Signal]:
 
 
 def each_net_once(signals: Iterable[Signal]) -> list[Signal]:
-    """A net has a name in every module that it crosses: the first, which is the outermost."""
+    """The outermost name of each net. A net has a name in every module that it crosses."""
     first: dict[str, Signal] = {}
     for signal in signals:
         first.setdefault(signal.code, signal)
@@ -96,7 +96,7 @@ def groups(signals: list[Signal]) -> dict[str, list[Signal]]:
 
 
 def missing(found: dict[str, list[Signal]]) -> list[str]:
-    """What a waveform of a read-out must have and this one has not."""
+    """Groups that a read-out's waveform must have and this waveform lacks."""
     lacking = [name for name, members in found.items() if not members]
     if not any(name.startswith("Stream T") for name in found):
         lacking.append("Stream T1")
@@ -106,8 +106,8 @@ def missing(found: dict[str, list[Signal]]) -> list[str]:
 
 
 def save_file(waveform: Path, found: dict[str, list[Signal]]) -> str:
-    """The text of the save file. The waveform stands in it by name alone, so that the two can move together. Stages
-    of the scan are folded, for a frame begins with the stream."""
+    """Text of the save file. It names the waveform without a folder, so that both files can move together. Stages of the scan are
+    collapsed, since a frame begins with the stream."""
     lines = ["[*] Written by scripts/wave_groups.py", f'[dumpfile] "{waveform.name}"', f'[savefile] "{waveform.stem}.gtkw"']
     for name, members in found.items():
         folded = name.startswith("Scan")
@@ -119,7 +119,7 @@ def save_file(waveform: Path, found: dict[str, list[Signal]]) -> str:
 
 
 def read_header(waveform: Path) -> list[str]:
-    """The header of the waveform as VCD. fst2vcd would go on with the values, which nobody wants here."""
+    """Header of the waveform as VCD. Stops fst2vcd before it writes the values."""
     with subprocess.Popen(["fst2vcd", str(waveform)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as tool:
         assert tool.stdout is not None
         header = []

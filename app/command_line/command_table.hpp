@@ -11,34 +11,35 @@ class Option;
 
 namespace dtof {
 
-/// An option as help, completion and man page show it.
+/// Texts of an option for help, completion and man page.
 struct OptionText {
-  std::vector<std::string> names;  ///< "-r", "--readout"; of a positional its name without hyphens
+  std::vector<std::string> names;  ///< "-r", "--readout"; a positional's name has no hyphens
   bool takes_value = false;
-  std::string type;                             ///< "TEXT", "FLOAT"; empty for a flag
-  std::string initial;                          ///< its value where none is given, as far as it is known
-  std::string description;                      ///< one line
-  std::vector<std::string> values;              ///< those that it takes, where they are a list
-  std::vector<std::string> names_among_values;  ///< read-outs, scenes or presets, where it takes others, too
+  std::string type;                 ///< "TEXT", "FLOAT"; empty for a flag
+  std::string initial;              ///< default value, if known
+  std::string description;          ///< one line
+  std::vector<std::string> values;  ///< accepted values, if they are a list
+  /// Read-outs, scenes or presets that are accepted beside other values.
+  std::vector<std::string> names_among_values;
 };
 
-/// A command, and the program itself, whose name is then that of the program.
+/// Texts of a command, or of the program itself.
 struct CommandText {
   std::string name;
   std::string description;  ///< one line
   std::vector<OptionText> options;
 };
 
-/// The commands of a program, as the parser has them.
+/// All commands of a program.
 std::vector<const CLI::App*> subcommands(const CLI::App& app);
 /// All options of a command and of its option groups.
 std::vector<const CLI::Option*> all_options(const CLI::App& command);
 
-/// The program first, then its commands: the one table behind completion and man page.
+/// Texts of the program, then of its commands; completion and man page are made from this table.
 std::vector<CommandText> command_table(const CLI::App& app);
 
-/// A completion script for bash: commands, options, and the values of options that take those of a list;
-/// elsewhere files. zsh reads it by bashcompinit.
+/// A completion script for bash. It completes commands, options, and values of options with a list of values;
+/// elsewhere file names. zsh reads it through bashcompinit.
 std::string bash_completion(const CLI::App& app);
 
 /// A man page for section 1 (troff, macros man): every command with every option.

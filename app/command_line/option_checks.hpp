@@ -6,25 +6,26 @@
 
 namespace dtof {
 
-/// A number from `lowest` to `highest`; the refusal of another one ends with `reason`, e.g. "to 200: direct
+/// Accepts a number from `lowest` to `highest`. The error text ends with `reason`, e.g. "to 200: direct
 /// sunlight is about 130 klux".
 CLI::Validator within(double lowest, double highest, const std::string& reason);
 
-/// Full sun is 100 to 130 klux.
+/// Accepts a plausible light level in klux; full sun is 100 to 130 klux.
 CLI::Validator sensible_klux();
 /// 1 is a white matt surface; a glint or a retroreflector is more.
 /// Any number above 0, or of at least 0.
 CLI::Validator above_zero();
 CLI::Validator not_negative();
-inline constexpr double kMostReflectivity = 4.0;  ///< up to which the photon models are checked
-/// "4: a white matt surface is 1, ...", to end a refusal with.
+/// Largest reflectivity for which the photon models are checked.
+inline constexpr double kMostReflectivity = 4.0;
+/// End of an error text: "4: a white matt surface is 1, ...".
 std::string reflectivity_reason();
 CLI::Validator sensible_reflectivity();
-/// Up to kMostAcquisitions (pipeline/frame_pipeline.hpp).
+/// Accepts a number of acquisitions up to kMostAcquisitions (pipeline/frame_pipeline.hpp).
 CLI::Validator sensible_acquisitions();
 
-/// "" if `text` is what an option of CLI11's type (FLOAT, INT or UINT) can hold, else the reason, e.g. "'abc'
-/// is not a number". Numbers are decimal and finite; CLI11 alone would read 010 as 8 and -1 as 2^64 - 1.
+/// Returns "" if an option of CLI11's type (FLOAT, INT or UINT) can hold `text`, else the reason, e.g. "'abc'
+/// is not a number". Numbers are decimal and finite. (CLI11 alone would read 010 as 8 and -1 as 2^64 - 1.)
 std::string number_error(const std::string& text, const std::string& type);
 
 /// Adds number_error to every numeric option of the command, its subcommands and option groups.

@@ -15,9 +15,9 @@
 
 namespace dtof {
 
-/// --readout and the overrides of its parameters.
+/// --readout and the options that override read-out parameters.
 struct ReadoutOptions {
-  std::string readouts = "all";  ///< names separated by commas
+  std::string readouts = "all";  ///< names, separated by commas
   std::optional<int> np;
   std::optional<int> nb;
   std::optional<int> slots;
@@ -32,30 +32,30 @@ struct ReadoutOptions {
   bool with_template = false;
 
   void add_to(CLI::App& command);
-  /// Whether "all" is all that is asked for.
+  /// True if the user asked for "all" read-outs and no others.
   [[nodiscard]] bool all() const { return readouts == "all"; }
-  /// One set of parameters for each read-out asked for; "all" stands for those of `all`, "thesis" for
-  /// kThesisReadouts. Throws InputError, also for an override that none of the read-outs has. What no option
-  /// says is that of default_parameters (sensor/default_parameters.hpp). The template is measured with the
-  /// sensor as given, and with --np and --slots.
+  /// Parameters of each requested read-out. "all" stands for `all`, "thesis" for kThesisReadouts. Parameters
+  /// without an option have the values of default_parameters (sensor/default_parameters.hpp). The template is
+  /// measured with `sensor`, --np and --slots. Throws InputError, also for an override that none of the
+  /// read-outs has.
   [[nodiscard]] std::vector<ReadoutParameters> parameters(std::span<const Readout> all,
                                                           const SensorModel& sensor = {}) const;
 };
 
-/// --sensor with its synonyms: a preset's name or a sensor file.
+/// Adds --sensor and its synonyms: a preset's name or a sensor file.
 void add_sensor_option(CLI::App& command, std::string& sensor);
-/// --frame-rate and --clock-mhz, which say how many clocks a frame may take.
+/// Adds --frame-rate and --clock-mhz, which limit the clocks of a frame.
 void add_budget_options(CLI::App& command, double& frame_rate, double& clock_mhz);
 
-/// --seed of everything random, --threads and --out: what every study has.
+/// Adds the options of every study: --seed for everything random, --threads and --out.
 void add_study_options(CLI::App& command, std::uint64_t& seed, int& threads, std::string& out);
 
-/// --engine, --verify, --trace, --seed, --threads, --columns and --rows.
+/// Adds --engine, --verify, --trace, --seed, --threads, --columns and --rows.
 void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsystem = false);
 /// Throws InputError for contradictory options.
 void check_run_options(const RunSettings& settings);
 
-/// Light, sensor and the improvement methods of thesis section 2.2.4.
+/// Options of light and sensor, and of the improvement methods of thesis section 2.2.4.
 struct SensorOptions {
   std::string sensor = "thesis";  ///< a preset or a sensor file
   double klux = 14.0;
@@ -67,22 +67,23 @@ struct SensorOptions {
   std::string fidelity = "exact";
   double tolerance = 0.01;
   mutable std::optional<SensorModel> read_once =
-      std::nullopt;  ///< `sensor` as it was first read: it may be a pipe
+      std::nullopt;  ///< `sensor` after the first read, since it may be a pipe
 
   void add_to(CLI::App& command);
-  /// Without --klux, for commands that take several light levels.
+  /// Adds all options but --klux, for commands with several light levels.
   void add_sensor_to(CLI::App& command);
-  /// The sensor as its file describes it. Throws InputError.
+  /// Sensor as its file describes it. Throws InputError.
   [[nodiscard]] SensorModel described() const;
-  /// The same with the overrides. Throws InputError.
+  /// Sensor with the overrides. Throws InputError.
   [[nodiscard]] SensorModel with_options() const;
-  /// The same with NP and SLOTS of the read-outs. Throws InputError, also for what no sensor can be.
+  /// Sensor with the overrides and with NP and SLOTS of the read-outs. Throws InputError, also for an
+  /// impossible sensor.
   [[nodiscard]] SensorModel model(int np, int slots) const;
-  /// Throws InputError for an option of `command` that changes nothing.
+  /// Throws InputError for a given option of `command` that has no effect.
   void refuse_options_without_effect(const CLI::App& command) const;
-  /// Throws InputError unless a target at `metres`, which `option` named, is within the sensor's range.
+  /// Throws InputError unless a target at `metres` (the value of `option`) is within the sensor's range.
   static void require_in_range(const SensorModel& sensor, double metres, const std::string& option);
-  /// The photon model that --fidelity and --tolerance ask for (analytic/fidelity.hpp). Throws InputError.
+  /// Photon model by --fidelity and --tolerance (analytic/fidelity.hpp). Throws InputError.
   [[nodiscard]] Fidelity photon_model(const PhotonSource& exact, PhotonUse use,
                                       std::span<const Readout> readouts) const;
 };

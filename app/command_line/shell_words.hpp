@@ -7,11 +7,11 @@
 
 namespace dtof {
 
-/// A word as a shell (bash) takes it: as it stands where nothing in it means anything to a shell, else in
-/// quotation marks; with bytes that no terminal shows as $'...'.
+/// Quotes a word for bash: unchanged if it has no special characters, else in quotation marks, or as $'...'
+/// if it has unprintable bytes.
 std::string shell_word(std::string_view word);
 
-/// The words of a command line, to be pasted into a shell.
+/// Quotes a command line for pasting into a shell.
 std::string shell_command(std::string_view program, std::span<const char* const> arguments);
 
 }  // namespace dtof

@@ -5,14 +5,14 @@
 
 namespace dtof {
 
-/// Takes the place of standard streams that are closed, so that no file gets their numbers: what is written
-/// to standard error is dropped, and writing to standard output fails.
+/// Opens substitutes for closed standard streams, so that no other file gets their numbers. Text for standard
+/// error is then dropped; writing to standard output fails.
 void open_closed_streams();
 
-/// Writes what waits for standard output; returns why not all of the output was written, or nothing.
+/// Flushes standard output. Returns why not all output was written; empty if it was.
 std::string flush_standard_output();
 
-/// Writes a line to standard error, if somebody reads there.
+/// Writes a line to standard error; ignores errors.
 void print_error_line(const std::string& line) noexcept;
 
 }  // namespace dtof

@@ -5,7 +5,7 @@
 
 namespace dtof {
 
-/// A JSON object with program, version, compiler, build type, C++ standard, system, machine and processors.
+/// JSON object with program, version, compiler, build type, C++ standard, system, machine and processors.
 std::string version_json(const std::string& program, const std::string& version);
 
 }  // namespace dtof

@@ -11,10 +11,10 @@ class App;
 
 namespace dtof {
 
-/// dtof: frames, videos and recordings through the read-outs.
+/// The program dtof: reads out frames, videos and recordings.
 Program dtof_program();
 
-/// Each adds its subcommand; `command_line` as in Program.
+/// Each function adds a subcommand; `command_line` as in Program.
 void add_frame_command(CLI::App& app, const std::string& command_line);
 void add_replay_command(CLI::App& app, const std::string& command_line);
 void add_convert_command(CLI::App& app, const std::string& command_line);

@@ -8,11 +8,11 @@
 
 namespace dtof {
 
-/// Throws InputError, which names the option, unless the project's synthesis flow is in this folder.
+/// Throws InputError that names `option` unless the current folder holds the project's synthesis flow.
 void check_flow(const std::string& option);
 
-/// What `synth/synth.py run` says of a read-out's array for a sensor, as text of a report. Throws InputError
-/// that names the option if the flow fails.
+/// Runs `synth/synth.py run` for a read-out's array and returns its figures as text for a report. Throws
+/// InputError that names `option` if the flow fails.
 std::string measured_by_flow(const std::string& option, const ReadoutParameters& parameters,
                              const SensorModel& sensor, double clock_mhz);
 

@@ -13,35 +13,35 @@ class App;
 
 namespace dtof {
 
-/// The result of a command as one JSON object on standard output (`--json`). What the command prints for
-/// people goes to standard error meanwhile. Without --json it does nothing.
+/// Result of a command as one JSON object on standard output (`--json`). Until finish(), text for people is
+/// redirected to standard error. Without --json the object does nothing.
 class JsonResult {
  public:
-  /// The option of a command.
+  /// Adds the option --json to a command.
   static void add_to(CLI::App& command, bool& wanted);
 
-  /// `command_line` as typed.
+  /// `command_line`: as typed.
   JsonResult(bool wanted, const std::string& command, const std::string& command_line);
   JsonResult(const JsonResult&) = delete;
   JsonResult& operator=(const JsonResult&) = delete;
   JsonResult(JsonResult&&) = delete;
   JsonResult& operator=(JsonResult&&) = delete;
-  /// Standard output is the program's own again; a command that failed has no object.
+  /// Restores standard output. A command that failed prints no object.
   ~JsonResult();
 
-  /// A member of the object.
+  /// Member of the JSON object.
   nlohmann::ordered_json& operator[](const char* key) { return object_[key]; }
-  /// `out`, and `files`, the names of the files in it, sorted; of folders in it those with their folder.
+  /// Adds `out`, and `files`: the sorted names of the files in it, those in its folders with their path.
   void add_folder(const std::filesystem::path& out);
   /// Prints the object.
   void finish();
 
  private:
-  int standard_output_ = -1;  ///< -1: JSON is not asked for, or printed
+  int standard_output_ = -1;  ///< -1: --json was not given, or the object is printed
   nlohmann::ordered_json object_;
 };
 
-/// The rows as objects: a member for each column, by its head.
+/// Rows of a table as objects, with a member per column named by its header.
 nlohmann::ordered_json json_rows(const Table& table);
 
 }  // namespace dtof

@@ -7,8 +7,8 @@
 
 namespace dtof {
 
-/// Writes a file that a measurement can do without. If there is an obstacle, the file is left out, an older
-/// one is removed, and standard output has a line that says why. Returns whether the file is written.
+/// Writes an optional file of a measurement. With a non-empty `obstacle` the file is not written, an older
+/// one is removed, and a line on standard output gives the reason. Returns whether the file was written.
 bool write_optional(const std::filesystem::path& path, const std::string& obstacle,
                     const std::function<void()>& write);
 

@@ -8,11 +8,10 @@
 
 namespace dtof {
 
-/// What the page offers, a line each, fields separated by tabulators:
-/// "readout" name title summary; "scene" name summary; "sensor" name columns rows reflectivity acquisitions
-/// range in m; "figure" name.
+/// The page's choices, one per line, fields separated by tabs: "readout" name title summary; "scene" name
+/// summary; "sensor" name columns rows reflectivity acquisitions range in m; "figure" name.
 std::string playground_catalogue();
-/// The line of one sensor.
+/// Line of one sensor in the catalogue.
 std::string playground_sensor_line(std::string_view name, const SensorModel& sensor);
 
 }  // namespace dtof

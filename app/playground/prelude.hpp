@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Debian 12's emscripten lacks. Every file of the build by emscripten (make playground) includes this
-// first.
+// Replacements for what Debian 12's emscripten lacks. Every file of the emscripten build (make playground)
+// includes this file first.
 #pragma once
 
 #include <algorithm>
 #include <range/v3/algorithm.hpp>
 
-// Random123 refuses processors that it does not know. What it would do on RISC-V is portable C++.
+// Random123 refuses processors that it does not know. Its code for RISC-V is portable C++.
 #define __riscv
 #include <Random123/philox.h>
 #undef __riscv
 
-// The C++ library has no std::bit_cast and no constrained algorithms: range-v3, from which the standard took
-// them, lends its own.
+// The C++ library has no std::bit_cast and no constrained algorithms. range-v3, their origin, provides them.
 namespace std {
 
 template <typename To, typename From>

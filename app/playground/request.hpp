@@ -7,9 +7,9 @@
 
 namespace dtof {
 
-/// A request of text: lines of a name of PlaygroundRequest, a blank and its value; what no line names has its
-/// default; "readout" may come several times. Throws InputError for another name and a value that is no
-/// number or outside its limits.
+/// Parses a request. Each line has a name of PlaygroundRequest, a blank and a value. Names that are missing
+/// keep their defaults; "readout" may be repeated. Throws InputError for an unknown name, and for a value
+/// that is no number or outside its limits.
 PlaygroundRequest parse_playground_request(std::string_view text);
 
 }  // namespace dtof

@@ -14,11 +14,11 @@
 
 namespace dtof {
 
-/// What the page's controls say: a frame as `dtof frame` with these options makes it.
+/// Settings of the page: a frame as from `dtof frame` with the same options.
 struct PlaygroundRequest {
   std::string sensor = "thesis";
   std::string scene = "room";
-  std::optional<int> columns;  ///< of the array; else the sensor's
+  std::optional<int> columns;  ///< columns of the array; none: the sensor's
   std::optional<int> rows;
   double distance_m = 1.0;  ///< flat
   double near_m = 0.8;      ///< staircase and plane
@@ -31,28 +31,28 @@ struct PlaygroundRequest {
   std::vector<std::string> readouts;  ///< names
 };
 
-/// Files that a visitor of the page gives.
+/// Files that a visitor of the page opens.
 struct PlaygroundFiles {
-  std::string sensor_name = {};  ///< the file's, for messages
-  std::string sensor_text = {};  ///< a sensor file; empty: the request's preset
-  int map_columns = 0;           ///< of a depth map; 0: the request's scene
+  std::string sensor_name = {};  ///< name of the sensor file, for error messages
+  std::string sensor_text = {};  ///< text of the sensor file; empty: use the request's preset
+  int map_columns = 0;           ///< columns of a depth map; 0: use the request's scene
   int map_rows = 0;
   std::vector<float> map_m = {};  ///< [row][column], row 0 on top; 0: unknown
 };
 
-/// A frame of one read-out, row-major.
+/// Results of one read-out for a frame, row-major.
 struct PlaygroundFrame {
   std::vector<PixelResult> results;
   std::vector<float> depth_m;
-  std::vector<float> error_m;        ///< NaN where the truth is unknown
-  std::vector<std::string> figures;  ///< as `summary.csv` has them (figure_names)
+  std::vector<float> error_m;        ///< NaN without a true distance
+  std::vector<std::string> figures;  ///< as in `summary.csv` (figure_names)
 };
 
-/// A scene that several read-outs see at once: its photons are drawn once, column by column, so that a page
-/// can show how far it is.
+/// A scene that several read-outs process together, column by column, so that the page can show progress.
+/// Photons are drawn once.
 class PlaygroundSession {
  public:
-  /// Throws InputError.
+  /// Throws InputError for an illegal request or file.
   explicit PlaygroundSession(const PlaygroundRequest& request, const PlaygroundFiles& files = {});
   PlaygroundSession(const PlaygroundSession&) = delete;
   PlaygroundSession& operator=(const PlaygroundSession&) = delete;
@@ -67,15 +67,15 @@ class PlaygroundSession {
 
   /// Fits the look-up tables.
   void calibrate();
-  /// Reads a column out; all of them are to be read, from left to right. Columns that hear each other wait
-  /// for the last of them.
+  /// Reads out a column; call it for all columns, from left to right. Columns that depend on each other are
+  /// processed together with the last of them.
   void read_column(int column);
-  /// What a read-out of the request (by its place there) made of the columns, after all were read.
+  /// Frame of the read-out with this index in the request, after all columns were read.
   [[nodiscard]] PlaygroundFrame frame(std::size_t readout) const;
-  /// What the TDC of a pixel delivered over the frame.
+  /// Detections of a pixel over the frame.
   [[nodiscard]] std::vector<Detection> pixel(int column, int row) const;
   [[nodiscard]] std::uint32_t acquisitions() const { return pipeline_.scene().acquisitions(); }
-  /// Codes that a timestamp can have.
+  /// Number of codes of a timestamp.
   [[nodiscard]] int codes() const;
 
  private:

@@ -13,27 +13,27 @@
 
 namespace dtof {
 
-/// What a product is made from.
+/// Inputs of a product.
 struct ProductRequest {
-  std::string sensor_text;  ///< the sensor file
+  std::string sensor_text;  ///< text of the sensor file
   SensorModel sensor;
   ReadoutParameters parameters;
-  Scene scene = Scene::kRoom;  ///< of the vectors
+  Scene scene = Scene::kRoom;  ///< scene of the test vectors
   double klux = 14.0;
   std::uint64_t seed = 1;
-  std::uint32_t vector_acquisitions = 0;  ///< 0: as many of the sensor's as fit some megabytes
+  std::uint32_t vector_acquisitions = 0;  ///< 0: the sensor's number, limited to a few megabytes of vectors
   FrameBudget budget;
   int threads = 0;
-  std::string command;       ///< that made it, without what does not change its files
-  std::string measurements;  ///< Markdown of what was measured; empty if nothing was
+  std::string command;       ///< command that made the product, without options that do not change its files
+  std::string measurements;  ///< Markdown with measured figures; empty if nothing was measured
 };
 
-/// The files of a product by their paths: a top, RTL, file lists, constraints, driver, vectors, bench. The
-/// same request gives the same bytes. Throws InputError for what dtof_subsystem cannot be, or a frame that
-/// does not fit the clock.
+/// Files of a product by path: top, RTL, file lists, constraints, driver, vectors, bench. Equal requests give
+/// equal bytes. Throws InputError for parameters that dtof_subsystem does not support, or a frame that does
+/// not fit the clock.
 std::map<std::string, std::string> product_files(const ProductRequest& request);
 
-/// Writes the files into a folder that must not be there, or be empty: all of them or none.
+/// Writes the files into `folder`, which must be empty or not exist: all of them or none.
 void write_product(const std::map<std::string, std::string>& files, const std::filesystem::path& folder);
 
 }  // namespace dtof

@@ -14,32 +14,31 @@
 
 namespace dtof {
 
-/// Throws InputError for what `run_readout` would refuse of an engine that is hardware: a read-out that is
-/// not compiled for so many rows, more acquisitions than the RTL's 16 bits count, or more columns than a
-/// trace holds. To be asked before anything is written.
+/// Checks, before any output is written, what `run_readout` would refuse for a hardware engine. Throws
+/// InputError for a read-out that is not compiled for this number of rows, more acquisitions than the RTL's
+/// 16 bits count, or more columns than a trace holds.
 void check_engine(const StreamSource& source, std::span<const ReadoutParameters> readouts,
                   const RunSettings& options, const Region& region);
 
-/// The read-outs of `--readout all` without those that pool pixels and whose RTL is not compiled for the
-/// source's columns, each of which is named on standard output. All of them if the engine is not the RTL.
+/// Removes from `--readout all` the pool read-outs whose RTL is not compiled for the source's columns, and
+/// prints their names on standard output. Returns all read-outs if the engine is not the RTL.
 std::vector<ReadoutParameters> without_unfit_engines(const StreamSource& source,
                                                      std::vector<ReadoutParameters> readouts,
                                                      const RunSettings& options, const Region& region);
 
-/// True if run_readout asks a photon source that can be sampled (SampledSource) for the photons of one
-/// measurement at a time; false if it reads streams: hardware, the pool read-outs, --record.
+/// True if run_readout draws the photons from a SampledSource measurement by measurement. False if it reads
+/// streams: hardware, pool read-outs, --record.
 bool reads_samples(Readout readout, const RunSettings& options);
 
-/// Reads a region of `source` out with the engine of `options`, which does not change a result. A pool
-/// read-out's array has the sensor's rows, at least the 160 of the compiled arrays, and those outside the
-/// region are dark. With --verify the hardware's pixels are compared with the model's, and a difference is
-/// thrown as RtlError that describes it. `command` is the command line to reproduce the run, without
-/// --columns and
-/// --trace. Throws InputError for a region outside the source.
+/// Reads out a region of `source` with the engine of `options`; the engine does not change results. A pool
+/// read-out's array has the sensor's rows, at least the 160 of the compiled arrays; rows outside the region
+/// are dark. With --verify the hardware's pixels are compared with the model's; a difference throws RtlError
+/// that describes it. `command` is the command line that reproduces the run, without --columns and --trace.
+/// Throws InputError for a region outside the source.
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
                        const RunSettings& options, const Region& region, const std::string& command);
 
-/// The same for a FramePipeline. The settings must outlive the engine.
+/// run_readout as an engine of FramePipeline. The settings must outlive the engine.
 class ProgramEngine final : public FrameEngine {
  public:
   ProgramEngine(const RunSettings& settings, std::string command)

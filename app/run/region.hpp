@@ -12,15 +12,15 @@
 
 namespace dtof {
 
-/// Column list of the command line: "all", or numbers and ranges such as "0-9,20,30-32"; ascending.
-/// Throws InputError for anything else, a column named twice, or one that is not below `columns`.
+/// Parses a column list: "all", or numbers and ranges such as "0-9,20,30-32". Returns ascending columns.
+/// Throws InputError for anything else, a column named twice, or a column not below `columns`.
 std::vector<int> parse_columns(std::string_view text, int columns);
 
-/// Rows of the command line: "all", one number, or one range such as "40-79".
-/// Throws InputError for anything else, or a row that is not below `rows`.
+/// Parses rows: "all", one number, or one range such as "40-79". Throws InputError for anything else, or a
+/// row not below `rows`.
 RowRange parse_rows(std::string_view text, int rows);
 
-/// A region's frame with the sensor's pixel numbers.
+/// Results of a region with the sensor's row and column numbers.
 std::vector<ResultRecord> result_records(std::span<const PixelResult> results, const Region& region);
 
 }  // namespace dtof

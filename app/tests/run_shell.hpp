@@ -9,7 +9,7 @@
 
 namespace dtof::test {
 
-/// What a command came to.
+/// Result of a command.
 struct Outcome {
   int exit_code;       ///< -1 if a signal ended the command
   std::string output;  ///< standard output and standard error

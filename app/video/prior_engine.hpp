@@ -9,17 +9,17 @@
 
 namespace dtof {
 
-/// poolPointer's model with what the last frame left: each read begins from `priors` and leaves its own
-/// there, a PoolPrior for each engine of the array from the left; none before the first frame. The array
-/// has the source's rows alone.
+/// Model of poolPointer that keeps candidates from frame to frame. Each read starts from `priors` and updates
+/// it: one PoolPrior for each engine of the array, from the left; empty before the first frame. The array has
+/// only the source's rows.
 class PriorEngine final : public FrameEngine {
  public:
   /// `priors` must outlive the engine.
   PriorEngine(std::vector<PoolPrior>& priors, int threads) : priors_(&priors), threads_(threads) {}
 
   [[nodiscard]] bool reads_samples(Readout /*readout*/) const override { return false; }
-  /// Throws InputError for a read-out that is not poolPointer, and for a region that is not the whole source:
-  /// a frame of a video leaves something for all of the next one.
+  /// Throws InputError for a read-out other than poolPointer, and for a region that is not the whole source:
+  /// the next frame needs priors of all engines.
   [[nodiscard]] ReadoutRun read(const StreamSource& source, const ReadoutParameters& parameters,
                                 const Region& region) const override;
 

@@ -21,35 +21,36 @@
 
 namespace dtof {
 
-/// A frame of a video and what the read-outs made of it.
+/// A frame of a video and the results of all estimators.
 struct VideoFrame {
   TargetMap targets;
-  std::vector<std::vector<double>> distance_m;  ///< of each estimator; index = row * columns + column
-  std::vector<ErrorShares> shares;              ///< of each estimator, over all pixels that have a target
+  std::vector<std::vector<double>> distance_m;  ///< [estimator][row * columns + column]
+  std::vector<ErrorShares> shares;              ///< for each estimator, over all pixels with a target
 };
 
-/// Reads videos out with the models of several read-outs, each frame on its own; and, if poolPointer is
-/// among them, once more with one that begins each frame from what the last one left
-/// (`readout/pool_pointer.hpp`, PoolPrior). All see the same photons, other ones in each frame. A frame
-/// is that of FramePipeline, of an array with the sensor's rows alone; the look-up tables are of one light.
+/// Reads out videos with the models of several read-outs, each frame on its own. If poolPointer is among
+/// them, a further estimator is poolPointer with the last frame's candidates as prior
+/// (`readout/pool_pointer.hpp`, PoolPrior). All estimators see the same photons, and each frame has new ones.
+/// Frames are read by FramePipeline from an array with the sensor's rows; the look-up tables are calibrated
+/// at one light level.
 class VideoReader {
  public:
   VideoReader(SensorModel sensor, std::span<const ReadoutParameters> readouts, double table_klux,
               std::uint64_t seed, int threads);
 
-  /// Titles of the read-outs; poolPointer with its prior comes last.
+  /// Titles of the estimators: the read-outs, then poolPointer with its prior.
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
-  /// Which of the estimators is poolPointer without its prior; none if it is not read.
+  /// Index of poolPointer without prior among the estimators; none if it is not read.
   [[nodiscard]] std::optional<std::size_t> without_prior() const { return pool_; }
 
   using Watcher = std::function<void(int frame, const VideoFrame& seen)>;
-  /// Error shares; index: frame, estimator. Each frame is shown to `watch` as soon as it is read.
+  /// Error shares [frame][estimator]. Calls `watch` with each frame as soon as it is read.
   [[nodiscard]] std::vector<std::vector<ErrorShares>> read(const Sequence& sequence,
                                                            Progress* progress = nullptr,
                                                            const Watcher& watch = {}) const;
 
  private:
-  /// A frame; `priors` are poolPointer's, before and after it.
+  /// Reads a frame and updates poolPointer's `priors`.
   [[nodiscard]] VideoFrame read_frame(const SequenceFrame& frame, std::uint32_t number,
                                       std::vector<PoolPrior>& priors) const;
 
@@ -57,7 +58,7 @@ class VideoReader {
   std::vector<ReadoutParameters> readouts_;
   std::optional<std::size_t> pool_;
   std::vector<std::string> titles_;
-  std::vector<RangeConverter> tables_;  ///< of each estimator
+  std::vector<RangeConverter> tables_;  ///< for each estimator
   std::uint64_t seed_;
   int threads_;
 };

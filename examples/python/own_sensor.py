@@ -61,8 +61,8 @@ print(f"range {sensor.range_m:.2f} m, a bin is {sensor.time_resolution_s * 1e12:
 # %% [markdown]
 # ## Read-outs by light
 #
-# Pixels of a frame hang together (they share a scene, and pool read-outs share photons), frames do not: the interval of 95 % comes from
-# the frames. Four frames of three lights.
+# Pixels of a frame are correlated (they share a scene, and pool read-outs combine pixels), frames are independent: the 95 % interval comes
+# from the frames. Four frames at each of three light levels.
 
 # %%
 READOUTS = ["ezpointer", "hispointer", "sifh", "coarsehistogram", "poolpointer", "poolpointer-lean"]

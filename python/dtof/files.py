@@ -13,10 +13,11 @@ FileName = str | os.PathLike[str]
 
 
 def point_cloud(depth_m: npt.ArrayLike, degrees_per_pixel: float) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.bool_]]:
-    """The points (points, 3) of a depth map (rows, columns) in m, and which pixels have one (rows, columns): those with a distance above 0.
+    """Returns the points (n, 3) in m of a depth map (rows, columns) in m, and which pixels have a point (rows, columns): those with a
+    distance above 0.
 
-    Equiangular, as the program's PLY: a pixel's column and row turn the ray by `degrees_per_pixel` each about the map's middle. Axes as
-    cameras have them: x right, y down, z ahead.
+    The projection is equiangular, as in the program's PLY: a pixel's column and row each turn the ray by `degrees_per_pixel` about the
+    map's middle. Camera axes: x right, y down, z ahead.
     """
     depth = np.asarray(depth_m, dtype=np.float32)
     if depth.ndim != 2:
@@ -35,7 +36,7 @@ def point_cloud(depth_m: npt.ArrayLike, degrees_per_pixel: float) -> tuple[npt.N
 
 
 def _records(depth_m: npt.ArrayLike, degrees_per_pixel: float, fields: dict[str, npt.ArrayLike]) -> npt.NDArray[Any]:
-    """A record a point: x, y, z and each further map's value, as float32."""
+    """One record per point: x, y, z and the value of each further map, as float32."""
     points, known = point_cloud(depth_m, degrees_per_pixel)
     maps = {name: np.asarray(values) for name, values in fields.items()}
     for name, values in maps.items():
@@ -53,7 +54,8 @@ def _records(depth_m: npt.ArrayLike, degrees_per_pixel: float, fields: dict[str,
 
 
 def save_ply(file: FileName, depth_m: npt.ArrayLike, degrees_per_pixel: float, **fields: npt.ArrayLike) -> None:
-    """A binary PLY of the pixels with a distance: x, y, z in m and, as further properties, maps of the same shape (confidence=...)."""
+    """Writes a binary PLY of the pixels with a distance: x, y, z in m. Further maps of the same shape (confidence=...) become properties.
+    Raises ValueError for another shape."""
     records = _records(depth_m, degrees_per_pixel, fields)
     lines = ["ply", "format binary_little_endian 1.0", f"element vertex {len(records)}",
              *(f"property float {name}" for name in records.dtype.names or ()), "end_header", ""]
@@ -63,7 +65,8 @@ def save_ply(file: FileName, depth_m: npt.ArrayLike, degrees_per_pixel: float, *
 
 
 def save_pcd(file: FileName, depth_m: npt.ArrayLike, degrees_per_pixel: float, **fields: npt.ArrayLike) -> None:
-    """A binary PCD 0.7 (Point Cloud Library) of the pixels with a distance: x, y, z in m and maps of the same shape (confidence=...)."""
+    """Writes a binary PCD 0.7 (Point Cloud Library) of the pixels with a distance: x, y, z in m. Further maps of the same shape
+    (confidence=...) become fields. Raises ValueError for another shape."""
     records = _records(depth_m, degrees_per_pixel, fields)
     names = records.dtype.names or ()
     lines = ["# .PCD v0.7 - Point Cloud Data file format", "VERSION 0.7", "FIELDS " + " ".join(names), "SIZE" + " 4" * len(names),
@@ -75,7 +78,8 @@ def save_pcd(file: FileName, depth_m: npt.ArrayLike, degrees_per_pixel: float, *
 
 
 def save_npz(file: FileName, frame: Frame) -> None:
-    """An archive for numpy.load: truth_m, and of each read-out <name>_depth_m, <name>_error_m, <name>_code, _fraction and _confidence."""
+    """Writes an archive for numpy.load: truth_m, and for each read-out <name>_depth_m, <name>_error_m, <name>_code, _fraction and
+    _confidence."""
     arrays: dict[str, Any] = {"truth_m": frame.truth_m}
     for name in frame:
         made = frame[name]

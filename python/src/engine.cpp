@@ -125,20 +125,20 @@ py::array_t<double> knots(const RangeConverter& table) {
 void bind_tables(py::module_& module) {
   py::class_<RangeConverter>(
       module, "LookupTable",
-      "The host's monotone table from places on the code axis to distances. flat() is the one behind\n"
-      "`dtof frame --table flat`, fit() is for measurements of one's own.")
+      "The host's monotone table from positions on the code axis to distances. flat() makes the table "
+      "of\n`dtof frame --table flat`; fit() makes a table from your own measurements.")
       .def_static("flat", &flat_table, "readout"_a, "sensor"_a, "klux"_a = 14.0, py::kw_only(), "seed"_a = 1,
                   "fidelity"_a = "exact", "threads"_a = 0,
-                  "Fitted with the read-out's model on flat targets of the sensor's reflectivity.")
+                  "Fits a table with the read-out's model on flat targets of the sensor's reflectivity.")
       .def_static("fit", &fitted_table, "distances_m"_a, "positions"_a, "code_step"_a = 1.0,
-                  "Of an array of positions in bins (distances, measurements). code_step: resolution of a "
-                  "position, bins.")
+                  "Fits a table to an array of positions in bins (distances, measurements). code_step: "
+                  "resolution of a position, bins.")
       .def(
           "distance",
           [](const RangeConverter& table, const InputArray<double>& positions) {
             return for_each(positions, [&](double position) { return table.distance(position); });
           },
-          "position"_a, "float64 of the positions' shape, m.")
+          "position"_a, "Distances in m; float64 with the shape of `positions`.")
       .def_property_readonly("knots", &knots, "float64 (knots, 2): position in bins, distance in m.");
   module.def(
       "depth",
@@ -147,7 +147,8 @@ void bind_tables(py::module_& module) {
         return for_each(positions, [&](double position) { return scale.depth(position); });
       },
       "position"_a, "integration_time_s"_a = 45e-9, "np"_a = 10, "pulse_fwhm_s"_a = 0.0,
-      "Distances by Eq. 3.11 in m: c/2 (T_res (position + 0.5) - FWHM). float64 of the positions' shape.");
+      "Distances in m by Eq. 3.11: c/2 (T_res (position + 0.5) - FWHM). float64 with the shape of "
+      "`positions`.");
 }
 
 }  // namespace
@@ -155,7 +156,7 @@ void bind_tables(py::module_& module) {
 void bind_engine(py::module_& module) {
   bind_tables(module);
   py::class_<Results>(module, "Results",
-                      "What a read-out delivers: a number of each kind a pixel, arrays (rows, columns).")
+                      "Results of a read-out: arrays (rows, columns) with one number per pixel.")
       .def_property_readonly(
           "code", [](const Results& r) { return r.field(&PixelResult::code); }, "uint16, bins. No copy.")
       .def_property_readonly(
@@ -163,28 +164,29 @@ void bind_engine(py::module_& module) {
           "uint16, 2^-FRACTION_BITS bins. No copy.")
       .def_property_readonly(
           "confidence", [](const Results& r) { return r.field(&PixelResult::confidence); },
-          "uint16; 0 is none, the scale is the read-out's own. No copy.")
+          "uint16; 0 means no confidence, the scale depends on the read-out. No copy.")
       .def_property_readonly(
           "second", [](const Results& r) { return r.field(&PixelResult::second); },
           "uint16: second target of poolPointer, else 0. No copy.")
       .def_property_readonly("position", &Results::positions, "float64, bins: code and fraction.")
-      .def_property_readonly("has_distance", &distance_mask, "bool: whether the pixel has a distance.")
+      .def_property_readonly("has_distance", &distance_mask, "bool: True if the pixel has a distance.")
       .def_property_readonly("readout", &Results::parameters)
       .def_property_readonly(
           "columns", [](const Results& r) { return r.region().columns; },
           "The sensor's columns that were read.")
       .def_property_readonly("first_row", [](const Results& r) { return r.region().rows.first; })
       .def("distance_m", &distances, "sensor"_a, "table"_a = py::none(),
-           "float32 (rows, columns), m, at least 0; NaN without a distance. Without a table by Eq. 3.11.")
+           "Distances in m, at least 0, float32 (rows, columns); NaN without a distance. Without a table Eq. "
+           "3.11 is used.")
       .def("__repr__", [](const Results& r) {
         return fmt::format("<dtof.Results of {}: {} x {} pixels>", readout_name(r.parameters().readout),
                            r.shape()[1], r.shape()[0]);
       });
   module.def("read_out", &read_out, "photons"_a, "readout"_a, py::kw_only(), "columns"_a = py::none(),
              "rows"_a = py::none(), "threads"_a = 0, "progress"_a = py::none(),
-             "Reads a frame out: a Readout, or a name. columns: a list; rows: (first, one behind the last). "
-             "progress(done, total) is\n"
-             "called every few hundredths of a second; an exception of it, and Control-C, end the work.");
+             "Reads out a frame with a Readout, or a read-out's name. columns: a list; rows: (first, last + "
+             "1). progress(done, total) is\ncalled every few hundredths of a second. An exception from it, "
+             "or Control-C, ends the work.");
 }
 
 }  // namespace dtof::python

@@ -242,29 +242,27 @@ py::dict summary(const ReadoutFrame& readout) {
 
 void bind_readout_frame(py::module_& module) {
   py::class_<ReadoutFrame>(module, "ReadoutFrame",
-                           "What one read-out made of a frame; arrays are (rows, columns).")
+                           "Results of one read-out for a frame; arrays are (rows, columns).")
       .def_readonly("results", &ReadoutFrame::results, "Codes, fractions and confidences.")
       .def_property_readonly(
           "depth_m", [](const ReadoutFrame& r) { return r.map(r.frame->maps.depth); },
           "float32, m, at least 0; NaN without a distance. No copy.")
       .def_property_readonly(
           "error_m", [](const ReadoutFrame& r) { return r.map(r.frame->maps.error); },
-          "float32, m, measured less true; NaN without a distance or a truth. No copy.")
+          "float32, m, measured - true; NaN without a distance or a true distance. No copy.")
       .def_property_readonly(
           "confidence", [](const ReadoutFrame& r) { return r.results.field(&PixelResult::confidence); },
-          "uint16, on the read-out's own scale. No copy.")
+          "uint16; the scale depends on the read-out. No copy.")
       .def_readonly("table", &ReadoutFrame::table, "The look-up table; None without one.")
       .def_property_readonly("readout", [](const ReadoutFrame& r) { return r.frame->parameters; })
-      .def_property_readonly(
-          "figures", &figures,
-          "Errors of the judged pixels of all frames, whether they have a distance or not: pixels, rmse_m, "
-          "bias_m,\n"
-          "bias_before_table_m, relative_precision, share_above_3_percent, share_above_10_percent,\n"
-          "share_without_distance.")
-      .def_property_readonly("summary", &summary, "The same as text, as the row of `summary.csv` has them.")
+      .def_property_readonly("figures", &figures,
+                             "Error figures over the judged pixels of all frames, with or without a "
+                             "distance: pixels, rmse_m, bias_m,\nbias_before_table_m, relative_precision, "
+                             "share_above_3_percent, share_above_10_percent,\nshare_without_distance.")
+      .def_property_readonly("summary", &summary, "The figures as text, as in the row of `summary.csv`.")
       .def_property_readonly(
           "frames", [](const ReadoutFrame& r) { return r.frame->frames; },
-          "Frames taken, for precision_percent.")
+          "Number of frames read, which precision_percent decides.")
       .def_property_readonly("precision_reached",
                              [](const ReadoutFrame& r) { return r.frame->precision_reached; })
       .def_property_readonly("seconds", [](const ReadoutFrame& r) { return r.frame->run.seconds; });
@@ -274,10 +272,12 @@ void bind_readout_frame(py::module_& module) {
 
 void bind_frames(py::module_& module) {
   bind_readout_frame(module);
-  py::class_<Frame>(module, "Frame",
-                    "A frame of a scene by one read-out or several: frame[\"sifh\"] is what SiFH made of it.")
-      .def_property_readonly("truth_m", &Frame::truth_map,
-                             "float32 (rows, columns), m; NaN of a pixel that is not judged. No copy.")
+  py::class_<Frame>(
+      module, "Frame",
+      "A frame of a scene, read out by one or several read-outs: frame[\"sifh\"] holds the results of SiFH.")
+      .def_property_readonly(
+          "truth_m", &Frame::truth_map,
+          "True distances in m, float32 (rows, columns); NaN for pixels that are not judged. No copy.")
       .def_property_readonly(
           "columns", [](const Frame& f) { return f.region.columns; }, "The sensor's columns that were read.")
       .def_property_readonly("first_row", [](const Frame& f) { return f.region.rows.first; })
@@ -292,18 +292,15 @@ void bind_frames(py::module_& module) {
       .def("__len__", [](const Frame& f) { return f.readouts.size(); })
       .def("__getitem__", &Frame::find, py::return_value_policy::reference_internal)
       .def("__iter__", [](const py::object& f) { return py::iter(f.attr("keys")()); });
-  module.def("frame", &frame, "scene"_a = "room", "sensor"_a = "thesis", "readouts"_a = "all", py::kw_only(),
-             "klux"_a = 14.0, "seed"_a = 1, "frame"_a = 0, "table"_a = "flat", "fidelity"_a = "exact",
-             "tolerance"_a = 0.01, "columns"_a = py::none(), "rows"_a = py::none(),
-             "precision_percent"_a = py::none(), "max_frames"_a = 1000, "threads"_a = 0,
-             "progress"_a = py::none(),
-             "One frame of a scene, as `dtof frame` makes it: photons, TDC stream, read-outs, look-up "
-             "tables, distances, errors.\n"
-             "Arguments are that command's options; scene, sensor and readouts may be names or objects. "
-             "table: flat, none, or a dict of\n"
-             "LookupTables by the read-outs' names. "
-             "progress(done, total) is\n"
-             "called every few hundredths of a second; an exception of it, and Control-C, end the work.");
+  module.def(
+      "frame", &frame, "scene"_a = "room", "sensor"_a = "thesis", "readouts"_a = "all", py::kw_only(),
+      "klux"_a = 14.0, "seed"_a = 1, "frame"_a = 0, "table"_a = "flat", "fidelity"_a = "exact",
+      "tolerance"_a = 0.01, "columns"_a = py::none(), "rows"_a = py::none(),
+      "precision_percent"_a = py::none(), "max_frames"_a = 1000, "threads"_a = 0, "progress"_a = py::none(),
+      "Makes one frame of a scene as `dtof frame` does: photons, TDC stream, read-outs, look-up tables, "
+      "distances, errors.\nArguments are that command's options; scene, sensor and readouts may be names or "
+      "objects. table: flat, none, or a dict of\nLookupTables by the read-outs' names. progress(done, total) "
+      "is\ncalled every few hundredths of a second. An exception from it, or Control-C, ends the work.");
 }
 
 }  // namespace dtof::python

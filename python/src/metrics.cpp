@@ -58,45 +58,45 @@ py::dict target_errors(double true_m, const Values& measured, const std::pair<do
 void bind_estimates(py::module_& module) {
   module.def(
       "estimate_mean", [](const Values& values) { return estimate_mean(to_vector(values)); }, "values"_a,
-      "Mean of independent values, with Student's t.");
+      "Mean of at least 2 independent values, with Student's t interval.");
   module.def(
       "estimate_standard_deviation",
       [](const Values& values) { return estimate_standard_deviation(to_vector(values)); }, "values"_a,
-      "Standard deviation of independent values.");
+      "Standard deviation of at least 4 independent values.");
   module.def(
       "estimate_root_mean_square",
       [](const Values& values) { return estimate_root_mean_square(to_vector(values)); }, "values"_a,
-      "Root of the mean square of independent values.");
+      "Root mean square of at least 2 independent values.");
   module.def("estimate_share", &estimate_rare_share, "successes"_a, "trials"_a,
-             "Share of independent events, which may be rare: Wilson's interval, and Clopper and Pearson's "
-             "with few of them.");
+             "Share of independent events that may be rare: Wilson's interval, or Clopper and Pearson's if "
+             "events are few.");
   module.def(
       "estimate_share_of_frames",
       [](const Values& frames, std::uint64_t pixels) {
         return estimate_share_of_frames(to_vector(frames), pixels);
       },
       "shares"_a, "pixels_of_a_frame"_a,
-      "Share of pixels over frames, from each frame's own: pixels of a frame may hang together, frames do "
-      "not.");
+      "Share of pixels over several frames, from the share in each frame: pixels of one frame may be "
+      "correlated, frames are independent.");
 }
 
 }  // namespace
 
 void bind_metrics(py::module_& module) {
-  py::class_<Estimate>(module, "Estimate", "A figure of a random sample with its interval of 95 %.")
+  py::class_<Estimate>(module, "Estimate", "A figure estimated from a random sample, with its 95 % interval.")
       .def_readonly("value", &Estimate::value)
       .def_property_readonly(
           "interval", [](const Estimate& e) { return pair_of(e.covering()); },
-          "(low, high); with few outliers it holds whatever those are that were too rare to be seen.")
+          "(low, high); with few outliers it also allows for outliers that were too rare to appear.")
       .def_property_readonly(
           "interval_as_seen", [](const Estimate& e) { return pair_of(e.interval); },
-          "(low, high), if outliers are like those seen.")
+          "(low, high), assuming that all outliers resemble those in the sample.")
       .def("__float__", [](const Estimate& e) { return e.value; })
       .def("__repr__", [](const Estimate& e) {
         return fmt::format("<dtof.Estimate {:g} ({:g} to {:g})>", e.value, e.covering().low,
                            e.covering().high);
       });
-  py::class_<ErrorSummary>(module, "ErrorSummary", "Errors of a set of distances.")
+  py::class_<ErrorSummary>(module, "ErrorSummary", "Error figures of a set of distances.")
       .def_readonly("count", &ErrorSummary::count)
       .def_readonly("relative_precision", &ErrorSummary::relative_precision,
                     "Standard deviation of |measured - true| / true.")
@@ -106,11 +106,11 @@ void bind_metrics(py::module_& module) {
       .def_readonly("share_above_3_percent", &ErrorSummary::share_above_3_percent)
       .def_readonly("share_above_10_percent", &ErrorSummary::share_above_10_percent);
   module.def("error_summary", &error_summary, "true_m"_a, "measured_m"_a,
-             "Errors of two maps of one size; pixels that are NaN in either are left out.");
-  module.def(
-      "target_errors", &target_errors, "true_m"_a, "measured_m"_a, "range_m"_a,
-      "Errors of independent measurements of one target as Estimates: relative_precision, bias_m, rmse_m,\n"
-      "share_above_3_percent, share_above_10_percent. range_m: the distances that can be measured at all.");
+             "Error figures from two maps of equal size; pixels that are NaN in either map are left out.");
+  module.def("target_errors", &target_errors, "true_m"_a, "measured_m"_a, "range_m"_a,
+             "Error figures of independent measurements of one target as Estimates: relative_precision, "
+             "bias_m, rmse_m,\nshare_above_3_percent, share_above_10_percent. range_m: (least, largest) "
+             "distance that can be measured.");
   bind_estimates(module);
 }
 

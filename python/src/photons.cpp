@@ -261,22 +261,20 @@ std::shared_ptr<StreamSource> photons(const SceneMap& scene, const SensorModel& 
 void bind_sources(py::module_& module) {
   module.def("photons", &photons, "scene"_a, "sensor"_a, "klux"_a = 14.0, py::kw_only(), "seed"_a = 1,
              "frame"_a = 0, "fidelity"_a = "exact",
-             "What the sensor's TDCs deliver of a scene: exact (event by event), fast (times from tables) or "
-             "analytic (expected\n"
-             "detections, no noise). Drawn when they are read, column by column, the same ones each time.");
+             "TDC stream of a scene: exact (event by event), fast (times from tables) or analytic "
+             "(expected\ndetections, no noise). Columns are drawn when they are read, with the same photons "
+             "each time.");
   module.def("event_list", &event_list, "column"_a, "row"_a, "acquisition"_a, "timestamp"_a, py::kw_only(),
              "columns"_a, "rows"_a, "acquisitions"_a, "np"_a = 10, "slots"_a = 2,
-             "Events of one's own: four arrays of equally many whole numbers, in any order; events of a "
-             "pixel and acquisition keep\n"
-             "theirs, and are at most `slots`. A timestamp is 0 to 2^NP - 1, and its largest value means no "
-             "detection.");
+             "TDC stream from your own events: four arrays of equally many whole numbers, in any order. "
+             "Events of one pixel and\nacquisition keep their order, and are at most `slots`. A timestamp is "
+             "0 to 2^NP - 1; the largest value means no detection.");
   module.def("histogram_photons", &histogram_photons, "counts"_a, "bin_width_s"_a, py::kw_only(),
              "offset_s"_a = 0.0, "np"_a = 10, "integration_time_s"_a = 45e-9, "acquisitions"_a = 3333,
              "slots"_a = 2, "photons"_a = py::none(), "background"_a = 0.0, "seed"_a = 1, "frame"_a = 0,
-             "Measured histograms, (rows, columns, bins), (columns, bins) or (bins), as the stream of a "
-             "frame: every photon goes to\n"
-             "a random acquisition. With `photons` a frame has that mean number of a pixel, drawn from its "
-             "histogram.");
+             "TDC stream of a frame from measured histograms, (rows, columns, bins), (columns, bins) or "
+             "(bins): every photon goes to\na random acquisition. `photons`: mean number of photons per "
+             "pixel and frame, drawn from the pixel's histogram.");
 }
 
 }  // namespace
@@ -297,8 +295,7 @@ void bind_photons(py::module_& module) {
       .def("__len__", [](const ColumnEvents& events) { return events.stream->detection_count(); });
   py::class_<StreamSource, std::shared_ptr<StreamSource>>(
       module, "Photons",
-      "The TDC stream of a frame, whatever it comes from: photons(), event_list(), histogram_photons(), "
-      "read_recording().")
+      "TDC stream of a frame. Made by photons(), event_list(), histogram_photons() or read_recording().")
       .def_property_readonly("columns", &StreamSource::columns)
       .def_property_readonly("rows", &StreamSource::rows)
       .def_property_readonly("acquisitions", &StreamSource::acquisitions)
@@ -313,7 +310,7 @@ void bind_photons(py::module_& module) {
             run_work(py::none(),
                      [&](const Progress::Observer& /*observer*/) { write_stream_csv(file, source); });
           },
-          "file"_a, "Writes the stream as `dtof frame --record` does.")
+          "file"_a, "Writes the stream to a file, as `dtof frame --record` does.")
       .def("__repr__", [](const StreamSource& source) {
         return fmt::format("<dtof.Photons: {} x {} pixels, {} acquisitions>", source.columns(), source.rows(),
                            source.acquisitions());

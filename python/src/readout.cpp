@@ -139,12 +139,11 @@ ReadoutParameters to_readout(const py::handle& readout, const SensorModel& senso
 void bind_readouts(py::module_& module) {
   py::class_<ReadoutParameters>(
       module, "Readout",
-      "A read-out and its parameters, which are keywords with the names of readouts.toml in small letters\n"
-      "(nb=6, count_width=8). What no keyword says follows from the sensor, by default that of the thesis.\n"
-      "code_gate: codes begin <= x < end count. template, of a pool read-out: True, what decode takes away\n"
-      "because the sensor's cover glass and fog send light back; or Photons of a frame without a target, "
-      "from\n"
-      "which that is measured; or 32 entries.")
+      "A read-out and its parameters. Keywords are the names of readouts.toml in lower case\n(nb=6, "
+      "count_width=8). Other parameters follow from the sensor, by default the thesis's.\ncode_gate: codes "
+      "begin <= x < end count. template, for pool read-outs: what decode subtracts from the coarse\nbins. "
+      "True: measured for the sensor's cover glass and fog; or Photons of a frame without a target, "
+      "from\nwhich it is measured; or 32 entries.")
       .def(py::init(&make_readout), "name"_a, "sensor"_a = py::none(), py::kw_only(),
            "code_gate"_a = py::none(), "template"_a = false)
       .def_property_readonly("name",
@@ -154,17 +153,17 @@ void bind_readouts(py::module_& module) {
       .def_property_readonly(
           "summary", [](const ReadoutParameters& p) { return std::string(readout_summary(p.readout)); })
       .def_property_readonly("parameters", &parameter_dict,
-                             "The parameters that can be chosen, with their values.")
+                             "Names and values of the parameters that can be chosen.")
       .def_property_readonly(
           "template",
           [](const ReadoutParameters& p) {
             const PoolTemplate& entries = p.pool.coarse_template;
             return std::vector<int>(entries.begin(), entries.end());
           },
-          "What decode takes from each of 32 coarse bins; zeros without a template.")
+          "What decode subtracts from each of the 32 coarse bins; zeros without a template.")
       .def_property_readonly(
           "pools_pixels", [](const ReadoutParameters& p) { return is_pool_readout(p.readout); },
-          "Whether pixels help each other.")
+          "True for pool read-outs, whose pixels use their neighbours' results.")
       .def("__eq__", [](const ReadoutParameters& p, const ReadoutParameters& other) { return p == other; })
       .def("__repr__",
            [](const ReadoutParameters& p) { return fmt::format("<dtof.Readout {}>", p.to_string()); });
@@ -177,7 +176,7 @@ void bind_readouts(py::module_& module) {
         }
         return found;
       },
-      "All read-outs: a name and a sentence each.");
+      "All read-outs: name and one sentence.");
 }
 
 }  // namespace dtof::python

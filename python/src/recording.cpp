@@ -129,12 +129,13 @@ std::string convert_file(const std::filesystem::path& source, const std::filesys
 
 void bind_recordings(py::module_& module) {
   py::class_<HeldRecording>(module, "Recording", "A recorded frame.")
-      .def_readonly("description", &HeldRecording::description, "A few words on the file.")
+      .def_readonly("description", &HeldRecording::description, "Short description of the file.")
       .def_readonly("format", &HeldRecording::format,
                     "csv, npy, npz, mat, hdf5, photon-hdf5, picoquant, tmf8820 or tmf8829.")
       .def_readonly("photons", &HeldRecording::photons)
-      .def_property_readonly("true_distance_m", &true_distances,
-                             "float64 (rows, columns), m, NaN is unknown; None if the file knows none.");
+      .def_property_readonly(
+          "true_distance_m", &true_distances,
+          "True distances in m, float64 (rows, columns), NaN if unknown; None if the file has none.");
   module.def("read_recording", &read, "file"_a, py::kw_only(), "format"_a = "auto",
              "bin_width_s"_a = py::none(), "tick_s"_a = 8e-12, "variable"_a = "photon_times",
              "acquisitions"_a = py::none(), "columns"_a = py::none(), "rows"_a = py::none(), "np"_a = 10,
@@ -143,14 +144,14 @@ void bind_recordings(py::module_& module) {
              "Reads a recording as `dtof replay` does: a TDC stream (CSV), histograms (NPY, NPZ, HDF5, MAT, "
              "TMF8820, TMF8829), photon times (MAT), time tags (PTU, HT3, "
              "Photon-HDF5).");
-  module.def(
-      "read_array", &read_array, "file"_a, py::kw_only(), "variable"_a = "photon_times",
-      "float64: an array of an NPY, NPZ, HDF5 or MAT file (5 and 7.3, axes as in MATLAB). One of several "
-      "is named behind a colon: \"a.npz:depth_m\", \"a.h5:/group/cube\", \"a.mat:counts\".");
+  module.def("read_array", &read_array, "file"_a, py::kw_only(), "variable"_a = "photon_times",
+             "Reads an array of an NPY, NPZ, HDF5 or MAT file (5 and 7.3, axes as in MATLAB) as float64. A "
+             "colon and the array's name select one of several: \"a.npz:depth_m\", \"a.h5:/group/cube\", "
+             "\"a.mat:counts\".");
   module.def("convert", &convert_file, "source"_a, "target"_a, py::kw_only(), "format"_a = "auto",
              "metres_per_unit"_a = py::none(), "confidence"_a = py::none(), "amplitude"_a = py::none(),
              "degrees_per_pixel"_a = kPixelAngle, "text"_a = false, "bin_width_s"_a = py::none(),
-             "Writes a file of one format as one of another, as `dtof convert` does; returns its sentence.");
+             "Converts a file to another format, as `dtof convert` does; returns that command's sentence.");
   module.def("read_results", &read_results, "file"_a,
              "Arrays of a result file's lines: column, row, code, fraction, confidence.");
 }

@@ -263,9 +263,8 @@ RangeConverter rival_table(const NamedRival& named, double klux, std::uint64_t s
 
 void bind_rivals(py::module_& module) {
   py::class_<NamedRival>(module, "Rival",
-                         "A read-out that others have proposed: a name of rivals(), or of rival_families() "
-                         "with its numbers as keywords\n"
-                         "(Rival(\"hedh\", sensor, parts=8)).")
+                         "A read-out from the literature: a name of rivals(), or a name of rival_families() "
+                         "with its numbers as keywords\n(Rival(\"hedh\", sensor, parts=8)).")
       .def(py::init(&make_rival), "name"_a, "sensor"_a = py::none())
       .def_readonly("name", &NamedRival::name)
       .def_readonly("title", &NamedRival::title)
@@ -273,16 +272,15 @@ void bind_rivals(py::module_& module) {
       .def_readonly("parameters", &NamedRival::numbers)
       .def_property_readonly(
           "bits_per_pixel", [](const NamedRival& r) { return r.rival->bits_per_pixel(); },
-          "Bits of memory that a pixel keeps.")
+          "Memory bits per pixel.")
       .def_property_readonly(
-          "frames", [](const NamedRival& r) { return r.rival->frames(); }, "Frames that one result needs.")
+          "frames", [](const NamedRival& r) { return r.rival->frames(); }, "Number of frames per result.")
       .def("read_out", &read_rival, "photons"_a, py::kw_only(), "threads"_a = 0, "progress"_a = py::none(),
-           "Reads a frame out, or a list of as many as `frames`, the oldest first. A dict of arrays (rows, "
-           "columns): position\n"
-           "(float64, bins) and confidence (float64); and words (rows, columns, words), int32, as they leave "
-           "the chip.")
+           "Reads out a frame, or a list of `frames` frames, the oldest first. Returns a dict of arrays "
+           "(rows, columns): position\n(float64, bins) and confidence (float64); and words (rows, columns, "
+           "words), int32, as they leave the chip.")
       .def("flat_table", &rival_table, "klux"_a = 14.0, py::kw_only(), "seed"_a = 1, "threads"_a = 0,
-           "The LookupTable of flat targets, as a read-out has it.")
+           "Fits the LookupTable of flat targets, as for a read-out.")
       .def("__repr__", [](const NamedRival& r) {
         return fmt::format("<dtof.Rival {}: {} bits a pixel>", r.title, r.rival->bits_per_pixel());
       });
@@ -295,7 +293,7 @@ void bind_rivals(py::module_& module) {
         }
         return found;
       },
-      "Rivals that the studies compare: a name and where it is defined.");
+      "Rivals that the studies compare: name and publication.");
   module.def(
       "rival_families",
       [] {
@@ -309,7 +307,7 @@ void bind_rivals(py::module_& module) {
         }
         return found;
       },
-      "Rivals with numbers of one's own: a name, and of each number its default, its lowest and its highest "
+      "Families of rivals with free numbers: name, and for each number its default, lowest and highest "
       "value.");
 }
 

@@ -92,19 +92,18 @@ py::array_t<double> pixel_array(const SceneMap& scene, double PixelTarget::*memb
 }  // namespace
 
 void bind_scenes(py::module_& module) {
-  py::class_<SceneMap>(module, "Scene",
-                       "What the sensor looks at: a distance and a reflectivity for each pixel. scenes() has "
-                       "the names. Size and\n"
-                       "reflectivity are the sensor's where nothing else is said; reflectivity may be an "
-                       "array (rows, columns).")
+  py::class_<SceneMap>(
+      module, "Scene",
+      "A scene in front of the sensor: a distance and a reflectivity for each pixel. scenes() has the names. "
+      "Size and\nreflectivity are the sensor's by default; reflectivity may be an array (rows, columns).")
       .def(py::init(&scene_of_name), "name"_a = "room", "sensor"_a = py::none(), py::kw_only(),
            "columns"_a = py::none(), "rows"_a = py::none(), "reflectivity"_a = py::none(),
            "distance_m"_a = 1.0, "near_m"_a = 0.8, "far_m"_a = 5.0, "steps"_a = 8, "seed"_a = 1)
-      .def_static("from_depth", &scene_of_depth, "depth_m"_a, "reflectivity"_a = 1.0, py::kw_only(),
-                  "columns"_a = py::none(), "rows"_a = py::none(),
-                  "A depth map of one's own: an array (rows, columns) in m, taken as float32; 0, NaN and "
-                  "infinity are unknown.\n"
-                  "With `columns` and `rows` it is resampled by nearest neighbour.")
+      .def_static(
+          "from_depth", &scene_of_depth, "depth_m"_a, "reflectivity"_a = 1.0, py::kw_only(),
+          "columns"_a = py::none(), "rows"_a = py::none(),
+          "A scene from your own depth map: an array (rows, columns) in m, taken as float32; 0, NaN and "
+          "infinity are unknown.\nWith `columns` and `rows` it is resampled by nearest neighbour.")
       .def_property_readonly("columns", [](const SceneMap& scene) { return scene.targets->columns(); })
       .def_property_readonly("rows", [](const SceneMap& scene) { return scene.targets->rows(); })
       .def_readonly("name", &SceneMap::name)
@@ -128,7 +127,7 @@ void bind_scenes(py::module_& module) {
         }
         return found;
       },
-      "Scenes that need no file: a name and a sentence each.");
+      "Built-in scenes: name and one sentence.");
   module.def(
       "read_depth",
       [](const std::filesystem::path& file, const std::optional<double>& metres_per_unit) {
@@ -136,7 +135,8 @@ void bind_scenes(py::module_& module) {
         return taken_array(std::move(image.metres), {image.height, image.width});
       },
       "file"_a, "metres_per_unit"_a = py::none(),
-      "A depth map of a file (PNG of 8 or 16 bits, PFM, NPY): float32 (rows, columns), m; 0 is unknown.");
+      "Reads a depth map from a file (PNG of 8 or 16 bits, PFM, NPY): float32 (rows, columns), m; 0 is "
+      "unknown.");
 }
 
 }  // namespace dtof::python

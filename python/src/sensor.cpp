@@ -62,26 +62,26 @@ SensorModel replaced(const SensorModel& sensor, const std::optional<std::uint32_
 void bind_sensors(py::module_& module) {
   py::class_<SensorModel>(
       module, "Sensor",
-      "A laser, its SPADs and their TDC: a preset's name or the path of a sensor file, and behind it any\n"
-      "conditions, each after a plus: \"thesis+fog\". Cannot be changed; replace() makes another one.")
+      "A laser, its SPADs and their TDC, by a preset's name or the path of a sensor file. Conditions "
+      "may\nfollow, each after a plus: \"thesis+fog\". Cannot be changed; replace() makes another sensor.")
       .def(py::init(
                [](const std::filesystem::path& name_or_file) { return find_sensor(name_or_file.string()); }),
            "name_or_file"_a = "thesis")
       .def_static(
           "parse", [](const std::string& toml, const std::string& name) { return parse_sensor(toml, name); },
           "toml"_a, "name"_a = "sensor.toml",
-          "The sensor of a sensor file's text. Files that the text names are looked for beside the path "
-          "`name`.")
+          "Sensor from the text of a sensor file. Files that the text names are searched in the folder of "
+          "the path `name`.")
       .def(
           "under",
           [](const SensorModel& sensor, const std::string& condition) {
             return under_condition(sensor, condition);
           },
-          "condition"_a, "The sensor under one of conditions().")
+          "condition"_a, "The sensor with one of conditions() added.")
       .def("replace", &replaced, py::kw_only(), "acquisitions"_a = py::none(), "np"_a = py::none(),
            "slots"_a = py::none(), "columns"_a = py::none(), "rows"_a = py::none(), "binning"_a = py::none(),
            "dead_time_ns"_a = py::none(), "time_gate_ns"_a = py::none(), "coincidence_ns"_a = py::none(),
-           "The sensor with other values, as the options of `dtof frame` change it; times in ns.")
+           "Copy of the sensor with other values, named as the options of `dtof frame`; times in ns.")
       .def_readonly("name", &SensorModel::name)
       .def_readonly("columns", &SensorModel::columns, "Columns of the array.")
       .def_readonly("rows", &SensorModel::rows, "Rows of the array, pixels of a column.")
@@ -93,24 +93,25 @@ void bind_sensors(py::module_& module) {
       .def_readonly("pulse_fwhm_s", &SensorModel::pulse_fwhm_s, "Width of the pulse in s.")
       .def_readonly("dead_time_s", &SensorModel::dead_time_s, "Dead time of a pixel in s.")
       .def_readonly("default_reflectivity", &SensorModel::default_reflectivity,
-                    "Of scenes that do not say their own.")
+                    "Reflectivity of scenes that specify none.")
       .def_property_readonly(
           "range_m", [](const SensorModel& sensor) { return sensor_range_m(sensor); },
           "Distance from which light returns after T_int, in m.")
-      .def_property_readonly("degrees_per_pixel", &SensorModel::degrees_per_pixel, "Angle that a pixel sees.")
+      .def_property_readonly("degrees_per_pixel", &SensorModel::degrees_per_pixel,
+                             "Field of view of a pixel, degrees.")
       .def("signal_events", &SensorModel::signal_events, "distance_m"_a, "reflectivity"_a = 1.0,
-           "Mean signal events of a pixel and pulse.")
+           "Mean signal events per pixel and pulse.")
       .def("background_events", &SensorModel::background_events, "klux"_a, "reflectivity"_a = 1.0,
-           "Mean background events of a pixel and pulse, dark counts included.")
+           "Mean background events per pixel and pulse, dark counts included.")
       .def("__repr__", [](const SensorModel& sensor) {
         return fmt::format("<dtof.Sensor {}: {} x {} pixels, {} pulses a frame, NP {}, {:g} ns>", sensor.name,
                            sensor.columns, sensor.rows, sensor.acquisitions, sensor.np,
                            sensor.integration_time_s * 1e9);
       });
-  module.def("presets", &preset_names, "Names of the sensors that the module knows.");
+  module.def("presets", &preset_names, "Names of the built-in sensors.");
   module.def(
       "preset_text", [](const std::string& name) { return std::string(preset_text(name)); }, "name"_a,
-      "A preset's sensor file, to begin an own one with.");
+      "Text of a preset's sensor file, as a start for your own file.");
   module.def(
       "conditions",
       [] {
@@ -120,7 +121,7 @@ void bind_sensors(py::module_& module) {
         }
         return found;
       },
-      "What sensors can be under: a name and a sentence each.");
+      "Conditions that can be added to a sensor: name and one sentence.");
 }
 
 }  // namespace dtof::python

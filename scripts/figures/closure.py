@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a C++ file or a Python script is made of: the files of the project that it names, that those name, and so on."""
+"""The files on which a C++ file or a Python script depends: the project files that it names, that those name, and so on."""
 
 import ast
 import functools
@@ -33,8 +33,8 @@ def _includes(tree: SourceTree, name: str) -> list[str]:
 
 @functools.cache
 def _sources(tree: SourceTree) -> dict[str, list[str]]:
-    """By header, the files that define what the header declares: the file of its name, and the files beside it that include it and have
-    no header of their own. By file without a header, all files beside it, which may define what it declares itself."""
+    """For each header, the files that define its declarations: the file of its name, and files beside it that include it and have no header
+    of their own. For each file without a header, all files beside it, which may define its declarations."""
     found: dict[str, list[str]] = {}
     folders: dict[PurePosixPath, list[str]] = {}
     alone = []
@@ -70,7 +70,7 @@ def cpp(tree: SourceTree, root: str) -> set[str]:
 
 @functools.cache
 def _imports(tree: SourceTree, name: str) -> list[str]:
-    """Modules of the project, with the packages that they lie in."""
+    """Modules of the project that a file imports, with the packages that contain them."""
     place = PurePosixPath(name)
     modules: list[tuple[str, str]] = []  # folder to look in, dotted name
     for node in ast.walk(ast.parse(tree.text(name))):

@@ -54,12 +54,12 @@ def titles(root: Path) -> re.Pattern[str]:
 
 
 def _blank(match: re.Match[str]) -> str:
-    """Nothing, on as many lines."""
+    """Removes the match, but keeps its number of lines."""
     return "\n" * match[0].count("\n")
 
 
 def quiet(text: str) -> str:
-    """The page without references, code, what scripts write, and addresses, line by line."""
+    """The page without references, code, generated blocks and addresses; line numbers stay."""
     for pattern in (BLOCK, CODE, INDENTED):
         text = pattern.sub(_blank, text)
     text = references.REFERENCE.sub(lambda match: "REFERENCE" + _blank(match), text)
@@ -122,7 +122,7 @@ def pieces(text: str) -> Iterator[Piece]:
 
 
 def in_page(text: str, names: re.Pattern[str], of_readouts: bool = False) -> list[Piece]:
-    """The pieces of a page with a figure beside a read-out's name; `of_readouts`: of the whole page."""
+    """Pieces of a page that have a figure beside a read-out's name. With `of_readouts`, every figure of the page counts."""
     return [replace(piece, text=piece.text.strip()) for piece in pieces(quiet(text))
             if piece.figures and (of_readouts or names.search(piece.text) or names.search(piece.subject))]
 

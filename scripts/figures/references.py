@@ -42,7 +42,7 @@ def pages(tree: SourceTree) -> list[str]:
 
 
 def render(root: Path, tree: SourceTree, check: bool) -> list[str]:
-    """Writes the figures into the pages; with `check` nothing is written. The pages that differ."""
+    """Writes the figures into the pages and returns the pages that differ. With `check` nothing is written."""
     figures = store.load(root)
     wanted = {name: rendered(tree.text(name), figures, name) for name in pages(tree)}
     changed = [name for name, text in wanted.items() if text != tree.text(name)]

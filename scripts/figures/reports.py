@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The lists of reports (studies.toml, reports/reports.toml) and the digest of what each depends on."""
+"""The lists of reports (studies.toml, reports/reports.toml), and digests of each report's inputs."""
 
 import hashlib
 import tomllib
@@ -15,7 +15,7 @@ STUDIES = "studies.toml"
 
 
 class ReportsError(Exception):
-    """One line that says what is wrong."""
+    """An error with a one-line message."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Report:
 
 @dataclass(frozen=True)
 class Inputs:
-    """What a report depends on: a digest of everything, and one of each folder's files."""
+    """Inputs of a report: a digest of all files, and one for the files of each folder."""
 
     digest: str
     folders: dict[str, str]
@@ -63,7 +63,7 @@ def group(root: Path, name: str, tree: SourceTree) -> Inputs:
 
 
 def studies(root: Path) -> dict[str, dict]:
-    """studies.toml, by the name of the target of make; none where a tree has no such file."""
+    """Entries of studies.toml by make target; empty in a tree without this file."""
     path = root / STUDIES
     if not path.is_file():
         return {}
@@ -85,7 +85,7 @@ def _report(name: str, entry: dict, groups: dict[str, list[str]], where: str) ->
 
 
 def load(root: Path) -> dict[str, Report]:
-    """By name, each behind those whose files it reads."""
+    """Reports by name. A report comes after the reports whose files it reads."""
     table = tomllib.loads((root / LIST).read_text(encoding="utf-8"))
     groups = table.get("inputs", {})
     found = {}
@@ -128,7 +128,7 @@ def input_files(report: Report, tree: SourceTree) -> set[str]:
 
 
 def folder(name: str) -> str:
-    """The place that a page names for a file: two levels of folders, in models/dtof/ three, or a file of reports/ or of the root itself."""
+    """Folder name of a file as pages show it: two levels, in models/dtof/ three; for files in reports/ or the root, the file itself."""
     parents = PurePosixPath(name).parts[:-1]
     return name if not parents or parents[0] == "reports" else "/".join(parents[:3 if parents[0] == "models" else 2])
 
@@ -138,7 +138,7 @@ def _hash(lines: list[str]) -> str:
 
 
 def inputs(report: Report, tree: SourceTree) -> Inputs:
-    """The digests are of contents: a file that moves changes none of them."""
+    """Digests of a report's inputs. They cover contents only: moving a file does not change them."""
     files = {name: tree.digest(name) for name in sorted(input_files(report, tree))}
     by_folder: dict[str, list[str]] = defaultdict(list)
     for name, digest in files.items():

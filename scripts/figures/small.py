@@ -13,7 +13,7 @@ def is_small() -> bool:
 
 
 def written_root(root: Path) -> Path:
-    """The root that build/ and reports/ are written below."""
+    """The root below which build/ and reports/ are written."""
     if not is_small():
         return root
     (root / FOLDER / "reports").mkdir(parents=True, exist_ok=True)

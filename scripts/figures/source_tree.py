@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files of the project as they lie here, or as they were in a commit."""
+"""The project's files in the working tree, or in a commit."""
 
 import hashlib
 import re
@@ -11,7 +11,7 @@ from . import strip
 
 
 def git_says(root: Path, *arguments: str) -> str | None:
-    """What git prints; None if it fails or is not here, as for an archive of the project."""
+    """Output of a git command; None if it fails or git is missing, e.g. in an archive of the project."""
     try:
         done = subprocess.run(["git", *arguments], cwd=root, capture_output=True, text=True)
     except FileNotFoundError:
@@ -20,8 +20,8 @@ def git_says(root: Path, *arguments: str) -> str | None:
 
 
 class SourceTree:
-    """Files that git keeps or would keep, by their names from the root with slashes. In an archive, which has no .git, every file
-    outside the folders that are built."""
+    """Files that git tracks or would track, named relative to the root with slashes. In an archive without .git: all files outside build
+    folders."""
 
     def __init__(self, root: Path) -> None:
         self.root = root
@@ -50,14 +50,14 @@ class SourceTree:
         return self.known[name]
 
     def matching(self, pattern: str) -> list[str]:
-        """`**` stands for any folders, `*` for a part of one name."""
+        """Files that match a pattern: `**` matches any folders, `*` part of a name."""
         expression = re.compile("".join(".*" if part == "**/" else "[^/]*" if part == "*" else re.escape(part)
                                         for part in re.split(r"(\*\*/|\*)", pattern)))
         return sorted(name for name in self.files if expression.fullmatch(name))
 
 
 class CommitTree(SourceTree):
-    """Read by one git process; a file that is the same in several commits is read and stripped once."""
+    """Files of a commit, read by one git process. A file that is equal in several commits is read and stripped once."""
 
     digests: dict[tuple[str, str], str] = {}  # by blob and suffix
 

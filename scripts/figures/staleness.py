@@ -20,7 +20,7 @@ NAMED_PLACES = 6  # on a page
 
 @dataclass(frozen=True)
 class Measured:
-    """What a report was measured on. `commit`: the one that the files were changed from, if git knows it."""
+    """The inputs on which a report was measured. `commit`: the commit on which the files were based, if git knows it."""
 
     digest: str
     folders: dict[str, str]
@@ -34,7 +34,7 @@ class Stale:
 
     @property
     def line(self) -> str:
-        """The first line of its pages."""
+        """First line of the stale report's pages."""
         if not self.places:
             what = "nobody noted on what"
         else:
@@ -59,7 +59,7 @@ def measured(root: Path) -> dict[str, Measured]:
 
 
 def write_lines(path: Path, entries: dict[str, dict]) -> None:
-    """JSON with a line for each entry, so that a change of one is a line of a diff."""
+    """Writes JSON with one line per entry, so that a change of one entry is one line in a diff."""
     lines = [f"  {json.dumps(name)}: {json.dumps(entry, ensure_ascii=False)}" for name, entry in sorted(entries.items())]
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
@@ -74,7 +74,7 @@ def _head(root: Path) -> str:
 
 
 def begin(root: Path, report: Report, tree: SourceTree) -> str:
-    """Notes the inputs of a measurement that begins; their digest."""
+    """Notes the inputs of a measurement that begins; returns their digest."""
     found = inputs(report, tree)
     write_lines(root / BEGUN / f"{report.name}.json", {report.name: _entry(found, _head(root))})
     return found.digest
@@ -86,7 +86,7 @@ def begun(root: Path, report: Report) -> Measured | None:
 
 
 def record(root: Path, report: Report) -> Measured:
-    """What the measurement that wrote the report's files began with becomes what the report was measured on."""
+    """Records the inputs noted at the start of the measurement as those of the report."""
     found = begun(root, report)
     if found is None:
         raise ReportsError(f"{BEGUN}/{report.name}.json is missing: nothing is known of what {report.name} was measured on; "
@@ -96,7 +96,7 @@ def record(root: Path, report: Report) -> Measured:
 
 
 def record_commit(root: Path, report: Report, commit: str) -> Measured:
-    """A report that was committed with `commit`: its inputs are those of that commit."""
+    """Records the inputs of a report that was committed with `commit`."""
     tree = CommitTree(root, commit)
     entry = _entry(inputs(report, tree), tree.commit[:12])
     _store(root, report, Measured(**entry))
@@ -121,7 +121,7 @@ def compared(report: Report, known: Measured | None, now: Inputs) -> Stale | Non
 
 
 def stale(root: Path, reports: dict[str, Report], tree: SourceTree) -> dict[str, Stale]:
-    """By name, those whose inputs are not those that they were measured on."""
+    """Stale reports by name: their present inputs differ from those on which they were measured."""
     known = measured(root)
     found: dict[str, Stale] = {}
     for name, report in reports.items():
@@ -131,7 +131,7 @@ def stale(root: Path, reports: dict[str, Report], tree: SourceTree) -> dict[str,
 
 
 def changed_files(root: Path, one: Stale, tree: SourceTree) -> list[str]:
-    """The files behind the places, where git has the commit that the report was measured on."""
+    """Changed files of a stale report, if git has the commit on which the report was measured."""
     known = measured(root).get(one.report.name)
     if known is None or not known.commit:
         return []
@@ -159,7 +159,7 @@ def with_mark(text: str, one: Stale | None) -> str:
 
 
 def unmarked_pages(root: Path, reports: dict[str, Report], found: dict[str, Stale]) -> list[str]:
-    """A sentence for each page whose first line is not what the inputs say."""
+    """A sentence for each page whose first line is wrong: a missing or outdated stale mark."""
     wrong = []
     for name, report in reports.items():
         for page in report.pages:
@@ -175,7 +175,7 @@ def unmarked_pages(root: Path, reports: dict[str, Report], found: dict[str, Stal
 
 
 def mark(root: Path, reports: dict[str, Report], found: dict[str, Stale]) -> list[str]:
-    """Writes the line into stale pages and takes it from fresh ones; the pages that changed."""
+    """Writes the stale mark into stale pages and removes it from others; returns the changed pages."""
     changed = []
     for name, report in reports.items():
         for page in report.pages:

@@ -21,7 +21,7 @@ OPERATIONS: dict[type, Callable[[float, float], float]] = {
 
 @dataclass(frozen=True)
 class Figure:
-    """`value` as the command printed it; `interval`: its ends at 95 %, as printed, where it has one."""
+    """A figure. `value`: as the command printed it; `interval`: ends of the 95 % interval, as printed, if there is one."""
 
     value: str
     unit: str = ""
@@ -46,7 +46,7 @@ def load(root: Path) -> dict[str, Figure]:
 
 
 def record(root: Path, report: str, command: str, inputs: str, figures: dict[str, Figure]) -> None:
-    """The figures of a report; those that it had before and has no more go."""
+    """Stores the figures of a report and removes its former figures that no longer exist."""
     known = {name: figure for name, figure in load(root).items() if figure.report != report}
     for name, figure in figures.items():
         if not NAME.fullmatch(name):
@@ -70,8 +70,8 @@ def _number(node: ast.expr, figures: dict[str, Figure]) -> float:
 
 
 def text(reference: str, figures: dict[str, Figure]) -> str:
-    """What stands on a page for `NAME`, `NAME:FORMAT` or `EXPRESSION:FORMAT`, a format of Python such as .2f; an expression
-    has figures, numbers and + - * /."""
+    """Text that a page shows for a reference `NAME`, `NAME:FORMAT` or `EXPRESSION:FORMAT`. FORMAT is a Python format such as .2f; an
+    expression has figures, numbers and + - * /."""
     expression, _, form = reference.partition(":")
     expression = expression.strip()
     if not form:

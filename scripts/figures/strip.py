@@ -27,12 +27,12 @@ def c_like(text: str) -> str:
 
 
 def hash_comments(text: str) -> str:
-    """Whole lines only: behind code a # may stand in a string."""
+    """Removes whole comment lines only: a # after code may be part of a string."""
     return "\n".join(line for line in text.splitlines() if not line.lstrip().startswith("#"))
 
 
 def python(text: str) -> str:
-    """Docstrings go with the comments."""
+    """Removes comments and docstrings."""
     lines = text.splitlines()
     try:
         tree = ast.parse(text)
@@ -52,7 +52,7 @@ def python(text: str) -> str:
 
 
 def stripped(path: str, content: bytes) -> bytes:
-    """The content of a file of this name as a digest sees it."""
+    """The content of a file from which its digest is computed; `path` gives the language."""
     suffix = PurePosixPath(path).suffix
     work = c_like if suffix in C_LIKE else python if suffix == ".py" else hash_comments if suffix in HASH else None
     if work is None:

@@ -38,7 +38,7 @@ class Tables:
         return (self.root / "reports" / name).read_text(encoding="utf-8")
 
     def name(self, title: str) -> str:
-        """A word for the name of a figure."""
+        """A title as part of a figure's name."""
         return self.names.get(title) or re.sub(r"\W+", "_", title.lower()).strip("_")
 
 
@@ -97,13 +97,13 @@ def synth(tables: Tables) -> Figures:
 
 
 def growth(tables: Tables) -> Figures:
-    """Points of one parameter each."""
+    """Figures of points in which one parameter differs."""
     return {f"growth.{tables.name(row['readout'])}.{row['parameter'].lower()}_{row['value'].lower()}_mm2":
             Figure(row["total_mm2"], "mm2") for row in tables.rows("growth.csv")}
 
 
 def power(tables: Tables) -> Figures:
-    """While acquisitions stream in."""
+    """Power while acquisitions stream in."""
     found: Figures = {}
     for row in tables.rows("power.csv"):
         if row["phase"] != "streaming":
@@ -128,7 +128,7 @@ def frame(tables: Tables) -> Figures:
 
 
 def frames(tables: Tables) -> Figures:
-    """The standard frames, by their sensors."""
+    """Figures of the standard frames, by sensor."""
     found: Figures = {}
     for row in tables.rows("frames.csv"):
         for limit in ("3", "10"):
@@ -166,7 +166,7 @@ def scenes(tables: Tables) -> Figures:
 
 
 def reproduction(tables: Tables) -> Figures:
-    """What pile-up takes of the events, near."""
+    """Share of events lost to pile-up at near targets."""
     here = {row["thesis"]: row["here"] for row in tables.rows("reproduction.csv")}["Fig. 2.4"]
     lost = re.match(r"lost: ([\d.]+) % and ([\d.]+) %", here)
     if lost is None:
@@ -180,7 +180,7 @@ POOL_COLUMNS = {("held surface", "50"): ("edge_above_3_percent",), ("flat 5 m", 
 
 
 def rivals(tables: Tables) -> Figures:
-    """All scenes but the flats, of the read-outs and of what they are measured against."""
+    """Figures over all scenes except the flat ones, for the read-outs and the references."""
     found: Figures = {}
     for row in tables.rows("data/rivals.csv.gz"):
         if row["scene"] == "all" and (row["kind"] != "rival" or row["estimator"] in QUOTED_RIVALS):
@@ -192,7 +192,7 @@ def rivals(tables: Tables) -> Figures:
 
 
 def pool(tables: Tables) -> Figures:
-    """Scenes that are read badly."""
+    """Figures of the scenes with most errors."""
     found: Figures = {}
     for row in tables.rows("pool.csv"):
         name = f"pool.{tables.name(row['estimator'])}.{tables.name(row['scene'])}_at_{row['klux']}_klux"
@@ -207,6 +207,6 @@ MAKERS: dict[str, Callable[[Tables], Figures]] = {
 
 
 def figures(root: Path, report: str) -> Figures:
-    """What the report's files say now; nothing, if no page quotes it."""
+    """The figures in the report's present files; empty if no page quotes them."""
     make = MAKERS.get(report)
     return make(Tables(root)) if make else {}

@@ -52,7 +52,7 @@ def sources(folder: Path, patterns: Sequence[str]) -> list[Path]:
 
 
 def select(tree: Path, count: int, seed: int) -> Selection:
-    """The remembered mutants, and `count` others of the sources in `tree`, most of them in the read-out models."""
+    """The remembered mutants, and `count` others of the sources in `tree`, mostly of the read-out models."""
     groups = []
     readout = round(READOUT_SHARE * count)
     for patterns, share in ((["readout/*"], readout), (OTHERS, count - readout)):
@@ -64,7 +64,7 @@ def select(tree: Path, count: int, seed: int) -> Selection:
 
 
 def stable_number(mutant: Mutant) -> int:
-    """Depends on the mutant alone, so that a compiler cache knows a source whose mutants are the same."""
+    """Number that depends on the mutant alone, so that a compiler cache recognises sources with the same mutants."""
     return zlib.crc32(f"{mutant.file} {mutant.begin} {mutant.mutated}".encode()) & 0x7FFFFFFF
 
 
@@ -97,7 +97,7 @@ class Build:
             raise MutationError(f"{failure}: see {self.log}")
 
     def compile(self, selection: Selection) -> dict[Mutant, int]:
-        """Compiles all mutants, replacing those that the compiler refuses; their numbers."""
+        """Compiles all mutants and replaces those that the compiler rejects; returns their numbers."""
         written: dict[str, str] = {}
         while True:
             numbered = {mutant: stable_number(mutant) for mutant in selection.mutants}
@@ -152,7 +152,7 @@ def _limit_memory() -> None:
 
 
 def killer(build: Build, library: str, number: int, timeout_s: float | None) -> str | None:
-    """The test of a program that notices the mutant, or how the program ended; None if all tests pass."""
+    """Test of a program that notices the mutant, or how the program ended; None if all tests pass."""
     with tempfile.TemporaryDirectory() as scratch:
         environment = {**os.environ, "DTOF_LIVE_MUTANT": str(number), "TMPDIR": scratch, "TEST_TMPDIR": scratch}
         try:
@@ -194,7 +194,7 @@ def judge(build: Build, mutant: Mutant, number: int, seconds: Mapping[str, float
 
 
 def same_object(build: Build, mutant: Mutant) -> bool:
-    """Whether the compiler makes the same code of the source with the mutant: then it is equivalent."""
+    """True if the compiler produces the same code with and without the mutant, which is then equivalent."""
     if not mutant.file.endswith(".cpp"):
         return False
     text = (build.original / mutant.file).read_text()
@@ -213,7 +213,7 @@ def same_object(build: Build, mutant: Mutant) -> bool:
 
 
 def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
-    """Compiles and judges `count` mutants. Stops if the tests fail without any."""
+    """Compiles and judges `count` mutants. Stops if the tests fail without a mutant."""
     build = Build(folder.resolve(), jobs)
     selection = select(build.original, count, seed)
     numbered = build.compile(selection)

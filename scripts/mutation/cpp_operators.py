@@ -55,7 +55,7 @@ def _all(build: Builder, untouched: list[tuple[int, int]]) -> Iterator[Mutant]:
 
 
 def _fixed(source: Source, index: int) -> bool:
-    """Whether a number is a template's argument or marks a pure virtual function."""
+    """True if a number is a template argument or marks a pure virtual function."""
     before, after = source.at(index - 1), source.at(index + 1)
     pure = before == "=" and after == ";" and source.at(index - 2) in (")", "const", "noexcept")
     argument = after in (">", ",") and before in ("<", ",") and not source.is_binary(index - 1)
@@ -77,7 +77,7 @@ def _negated(build: Builder, first: int, last: int) -> Iterator[Mutant]:
 
 
 def _extremes(build: Builder, index: int) -> Iterator[Mutant]:
-    """std::min for std::max and the other way round, whole call."""
+    """Calls of std::max instead of std::min, and the reverse."""
     source = build.source
     first = index - 2
     if source.at(first) == "ranges":
@@ -99,7 +99,7 @@ def _begins_statement(source: Source, index: int) -> bool:
 
 
 def _changed_statement(build: Builder, first: int) -> Iterator[Mutant]:
-    """An expression statement without its effect, or with another assignment operator."""
+    """Removes the effect of an expression statement, or changes its assignment operator."""
     source = build.source
     if source.at(first) in _UNTOUCHED_STATEMENTS:
         return
@@ -128,7 +128,7 @@ def _changed_statement(build: Builder, first: int) -> Iterator[Mutant]:
 
 
 def _is_expression(source: Source, first: int, last: int) -> bool:
-    """Assignment, call, increment, break or continue, but no declaration: nothing but brackets has blanks."""
+    """True for an assignment, call, increment, break or continue; false for a declaration. Only brackets may contain blanks."""
     if source.at(first) in ("break", "continue", "++", "--"):
         return True
     index = first
@@ -143,7 +143,7 @@ def _is_expression(source: Source, first: int, last: int) -> bool:
 
 
 def _places(source: Source) -> list[int]:
-    """Where the statement of each token begins."""
+    """For each token, the index of the token at which its statement begins."""
     places = []
     begin = 0
     for index, token in enumerate(source.tokens):
@@ -154,7 +154,7 @@ def _places(source: Source) -> list[int]:
 
 
 def _untouched(source: Source) -> list[tuple[int, int]]:
-    """Arguments that are texts or types, enumerators and template parameters."""
+    """Token ranges without mutants: arguments that are texts or types, enumerators and template parameters."""
     found = []
     for index, token in enumerate(source.tokens):
         if token.text in _UNTOUCHED_CALLS and source.at(index + 1) == "(":
@@ -167,7 +167,7 @@ def _untouched(source: Source) -> list[tuple[int, int]]:
 
 
 def _constants(source: Source) -> list[tuple[int, int, tuple[int, int]]]:
-    """Begin and end of every constexpr variable, and where its `constexpr` stands."""
+    """Begin and end of every constexpr variable, and the range of its `constexpr`."""
     found = []
     for index, token in enumerate(source.tokens):
         if token.text != "constexpr" or source.at(index - 1) in ("if", ")"):

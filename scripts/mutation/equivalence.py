@@ -43,7 +43,7 @@ write_aiger -zinit {aiger}
 
 
 def instances(compiled: str) -> dict[str, frozenset[Parameters]]:
-    """The parameters of every instance of each module in a program of Icarus Verilog."""
+    """Parameters of every instance of each module in a compiled program of Icarus Verilog."""
     found: dict[str, set[Parameters]] = {}
     for scope in re.split(r"^(?=S_\w+ \.scope )", compiled, flags=re.MULTILINE):
         module = re.match(r'S_\w+ \.scope module, "[^"]*" "(\w+)"', scope)
@@ -54,7 +54,7 @@ def instances(compiled: str) -> dict[str, frozenset[Parameters]]:
 
 
 def _never_differs(aiger: bytes) -> bool:
-    """Whether every output is the constant 0, as newer versions of Yosys find by themselves. ABC calls that undecided."""
+    """True if every output is the constant 0, as newer versions of Yosys find. ABC would call this undecided."""
     header, *lines = aiger.split(b"\n")
     latches, outputs = (int(number) for number in header.split()[3:5])
     found = lines[latches:latches + outputs]
@@ -62,7 +62,7 @@ def _never_differs(aiger: bytes) -> bool:
 
 
 def proved(tree: Path, files: Iterable[str], file: str, mutated: str, parameters: Parameters) -> bool:
-    """Whether the module of `file`, with these parameters, never differs from the one in the text `mutated`."""
+    """True if the module of `file`, with these parameters, never differs from the one in the text `mutated`."""
     module = Path(file).stem
     sources = [str(tree / name) for name in files]
     with tempfile.TemporaryDirectory() as scratch:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is known about mutants that survive: explained.toml."""
+"""Explanations of surviving mutants: explained.toml."""
 
 import tomllib
 from dataclasses import dataclass, replace
@@ -37,7 +37,7 @@ def load(path: Path = EXPLAINED) -> list[Explanation]:
 
 
 def _still_there(mutant: Mutant, root: Path) -> bool:
-    """Whether the source has the line that the mutant changes."""
+    """True if the source still has the line that the mutant changes."""
     try:
         lines = (root / mutant.file).read_text(encoding="utf-8").splitlines()
     except OSError:
@@ -46,8 +46,8 @@ def _still_there(mutant: Mutant, root: Path) -> bool:
 
 
 def explain(verdict: Verdict, known: list[Explanation], root: Path = ROOT) -> Verdict:
-    """A survivor with its explanation; one that is argued to be equivalent becomes so. What the table says of a line that the
-    source has no more stays, and so do all others."""
+    """Adds the explanation to a survivor; a mutant argued to be equivalent is counted as such. Verdicts without an explanation stay
+    unchanged, and so do those whose line has left the source."""
     if verdict.state not in ("survived", "argued equivalent"):
         return verdict
     for explanation in known:

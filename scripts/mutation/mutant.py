@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a mutant is, and how mutants are drawn."""
+"""Mutants, and how they are drawn."""
 
 import random
 from collections import Counter
@@ -37,10 +37,9 @@ def one_line(text: str) -> str:
 
 
 def draw(mutants: Iterable[Mutant], seed: int) -> Iterator[Mutant]:
-    """One mutant per statement, in random order; the kind of change is drawn first, then the change.
+    """Draws one mutant per statement, in random order: first the kind of change, then the change.
 
-    A statement's place in the order and its mutant depend on the seed and its own text alone, so that other code can
-    change without drawing new mutants.
+    A statement's position and mutant depend on the seed and its own text alone, so changes of other code draw no new mutants.
     """
     places: dict[tuple[str, int], list[Mutant]] = {}
     for mutant in mutants:
@@ -59,10 +58,7 @@ def draw(mutants: Iterable[Mutant], seed: int) -> Iterator[Mutant]:
 
 
 class Selection:
-    """Mutants of several groups of files in given numbers, and those of which all are wanted.
-
-    Refused ones are replaced by the next drawn.
-    """
+    """Mutants from several groups of files: a given number from each, or all. Rejected ones are replaced by the next drawn."""
 
     def __init__(self, groups: Sequence[tuple[Iterable[Mutant], int]], seed: int, always: Iterable[Mutant] = ()) -> None:
         self._always = list(always)

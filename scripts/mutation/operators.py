@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The changes that C++ and SystemVerilog share: operators, constants, conditions."""
+"""Changes common to C++ and SystemVerilog: operators, constants, conditions."""
 
 from collections.abc import Iterator
 
@@ -50,7 +50,7 @@ class Builder:
 
 
 def binary_changes(build: Builder, index: int) -> Iterator[Mutant]:
-    """Other operators in place of the binary one at `index`, shifts by one more and one less."""
+    """Other operators in place of the binary operator at `index`; shifts by one more and one less."""
     source = build.source
     text = source.at(index)
     first, last = source.left_operand(index), source.right_operand(index)

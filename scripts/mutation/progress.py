@@ -3,7 +3,7 @@ import sys
 
 
 def show(text: str) -> None:
-    """A line that the next one replaces; on a terminal only."""
+    """Shows a line that the next one overwrites; on a terminal only."""
     if sys.stderr.isatty():
         print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
 

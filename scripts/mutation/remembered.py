@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mutants that every run judges: remembered.toml."""
+"""Mutants that every run judges (remembered.toml)."""
 
 import tomllib
 from pathlib import Path
@@ -11,7 +11,7 @@ REMEMBERED = Path(__file__).resolve().parent / "remembered.toml"
 
 
 def load(tree: Path, folder: str, path: Path = REMEMBERED) -> list[Mutant]:
-    """Those of the sources below a folder of `tree`; the text that each changes must stand there once."""
+    """Remembered mutants of the sources below a folder of `tree`. The text that each changes must occur exactly once."""
     found = []
     for entry in tomllib.loads(path.read_text(encoding="utf-8"))["mutant"]:
         if not entry["file"].startswith(f"{folder}/"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes what became of the mutants: a table for people and one for programs."""
+"""Writes the verdicts on the mutants: a page for people, a table for programs."""
 
 import csv
 from collections import Counter
@@ -24,7 +24,7 @@ def unexplained(verdicts: Sequence[Verdict]) -> list[Verdict]:
 
 
 def summary(parts: Mapping[str, Sequence[Verdict]]) -> str:
-    """One row per language, then one per folder."""
+    """Table with a row per language, then a row per folder."""
     lines = [f"| | mutants | {' | '.join(STATES)} | killed of the others |", f"|---|{'---:|' * (len(STATES) + 2)}"]
     for title, verdicts in parts.items():
         lines.append(_row(f"**{title}**", verdicts))
@@ -80,7 +80,7 @@ def write_table(parts: Mapping[str, Sequence[Verdict]], seeds: Mapping[str, int]
 
 
 def read_table(path: Path) -> tuple[dict[str, list[Verdict]], dict[str, int]]:
-    """The verdicts and seeds that a run has written."""
+    """Verdicts and seeds from the table of an earlier run."""
     parts: dict[str, list[Verdict]] = {}
     seeds: dict[str, int] = {}
     try:

@@ -101,7 +101,7 @@ def cases(seed: int) -> list[simulation.Case]:
 
 @dataclass(frozen=True)
 class Bench:
-    """A case with its vectors written, and what it costs and contains without a mutant."""
+    """A case with written vectors; its run time and its modules without a mutant."""
 
     case: simulation.Case
     vectors: Path  # the folder where it runs
@@ -121,7 +121,7 @@ def copy_sources(tree: Path) -> None:
 
 
 def prepare(case: simulation.Case, tree: Path, folder: Path) -> Bench:
-    """Writes a case's vectors and runs it without a mutant. MutationError unless it passes."""
+    """Writes a case's vectors and runs it without a mutant. MutationError if it fails."""
     folder.mkdir(parents=True)
     simulation.write_vectors(case, ROOT, folder)
     bench = f"{case.configuration.top}_bench"
@@ -131,7 +131,7 @@ def prepare(case: simulation.Case, tree: Path, folder: Path) -> Bench:
 
 
 def measured(bench: Bench, tree: Path) -> Bench:
-    """Runs a bench without a mutant and notes what it contains and costs. MutationError unless it passes."""
+    """Runs a bench without a mutant; notes its run time and modules. MutationError if it fails."""
     compiled = compile_bench(bench, tree)
     started = time.monotonic()
     by = simulate(bench, tree, None)
@@ -142,7 +142,7 @@ def measured(bench: Bench, tree: Path) -> Bench:
 
 
 def compile_bench(bench: Bench, tree: Path) -> str:
-    """The program that vvp runs, which stays in `tree`."""
+    """Compiles a bench in `tree`; returns the program for vvp."""
     output = tree / "bench.vvp"
     said = subprocess.run([*bench.command, "-o", "bench.vvp"], cwd=tree, text=True, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT)  # fmt: skip
@@ -153,13 +153,13 @@ def compile_bench(bench: Bench, tree: Path) -> str:
 
 
 def canonical(compiled: str) -> str:
-    """The program with its labels numbered in order: Icarus makes them of addresses, which change from run to run."""
+    """The program with its labels numbered in order: Icarus makes them from addresses, which differ between runs."""
     numbers: dict[str, str] = {}
     return re.sub(r"0x[0-9a-f]+", lambda match: numbers.setdefault(match.group(), f"0x{len(numbers):x}"), compiled)
 
 
 def simulate(bench: Bench, tree: Path, timeout_s: float | None) -> str | None:
-    """Runs what was compiled last; what the bench or an assertion reports, or that it hangs; None if it passes."""
+    """Runs the program compiled last. Returns the report of the bench or of an assertion, or that it hangs; None if it passes."""
     try:
         ran = subprocess.run(["vvp", "-n", tree / "bench.vvp"], cwd=bench.vectors, text=True, stdout=subprocess.PIPE,
                              stderr=subprocess.STDOUT, errors="replace", timeout=timeout_s)  # fmt: skip
@@ -199,7 +199,7 @@ def judge(mutant: Mutant, original: str, benches: list[Bench], tree: Path) -> Ve
 
 
 def proved(mutant: Mutant, original: str, benches: list[Bench], tree: Path) -> bool:
-    """Whether the mutant is equivalent with the parameters of every instance of its module."""
+    """True if the mutant is equivalent with the parameters of every instance of its module."""
     module = module_of(mutant.file)
     files = [name for bench in benches if module in bench.parameters for name in bench.command if name[:4] == "hdl/"]
     mutated = original[: mutant.begin] + mutant.mutated + original[mutant.end :]
@@ -216,7 +216,7 @@ def select(tree: Path, count: int, seed: int) -> Selection:
 
 
 def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
-    """Judges `count` mutants. Stops if a bench fails without any."""
+    """Judges `count` mutants. Stops if a bench fails without a mutant."""
     folder = folder.resolve()
     shutil.rmtree(folder, ignore_errors=True)
     trees: queue.Queue[Path] = queue.Queue()

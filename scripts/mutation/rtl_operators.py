@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every mutant of a SystemVerilog source: of module bodies, without widths, assertions and parameter ranges."""
+"""Mutants of a SystemVerilog source. They change module bodies, but no widths, assertions or parameter ranges."""
 
 import re
 from collections.abc import Iterator
@@ -66,7 +66,7 @@ def _other_conditions(build: Builder, first: int, last: int) -> Iterator[Mutant]
 
 
 def _dropped(build: Builder, index: int) -> Iterator[Mutant]:
-    """A nonblocking assignment that does nothing."""
+    """Removes the effect of a nonblocking assignment."""
     source = build.source
     first = index - 1
     while first > 0 and source.at(first - 1) not in _STATEMENT_ENDS | {")", ":"}:
@@ -81,7 +81,7 @@ def _dropped(build: Builder, index: int) -> Iterator[Mutant]:
 
 
 def _constant_strobe(build: Builder, index: int) -> Iterator[Mutant]:
-    """A signal that is a logical expression becomes constant."""
+    """Makes a signal that is a logical expression constant."""
     source = build.source
     equals = index
     while source.at(equals) != "=":
@@ -96,7 +96,7 @@ def _constant_strobe(build: Builder, index: int) -> Iterator[Mutant]:
 
 
 def _swapped_arms(build: Builder, index: int) -> Iterator[Mutant]:
-    """Two neighbouring arms of a case change places."""
+    """Exchanges two neighbouring arms of a case."""
     source = build.source
     end = index
     while source.at(end) != "endcase":
@@ -129,7 +129,7 @@ def _places(source: Source) -> list[int]:
 
 
 def _untouched(source: Source) -> list[tuple[int, int]]:
-    """Module headers, ranges in declarations, checks, conditions of generate blocks, signals that nothing uses."""
+    """Token ranges without mutants: module headers, ranges in declarations, checks, conditions of generate blocks, unused signals."""
     tokens = source.tokens
     found = []
     header = None
@@ -157,7 +157,7 @@ def _untouched(source: Source) -> list[tuple[int, int]]:
 
 
 def _in_declaration(source: Source, index: int) -> bool:
-    """Whether a range follows the type of a declaration, or the name declared."""
+    """True if a range follows the type or the name in a declaration."""
     position = index - 1
     while position >= 0 and source.at(position) not in _STATEMENT_ENDS | {"(", "="}:
         if source.at(position) in _DECLARATIONS or source.at(position) in ("localparam", "parameter"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes many mutants into one C++ source: each place asks at run time whether its mutant is alive."""
+"""Writes many mutants into one C++ source. At run time each place checks whether its mutant is active."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from mutation.mutant import Mutant
 
 @dataclass(frozen=True)
 class Schemata:
-    """A source with mutants, and the lines of the new text that each of them has a part in."""
+    """A source with mutants, and the lines of its text that belong to each mutant."""
 
     text: str
     lines: Mapping[Mutant, frozenset[int]]
@@ -19,7 +19,7 @@ class Schemata:
 
 
 def with_mutants(text: str, numbered: Mapping[Mutant, int]) -> Schemata:
-    """`numbered` are mutants of this text that do not overlap, and the numbers that wake them."""
+    """Source with the mutants `numbered`. They are mutants of `text` that do not overlap, with the numbers that activate them."""
     edits: dict[tuple[int, int], tuple[str, list[Mutant]]] = {}
     for mutant, number in numbered.items():
         edits[mutant.begin, mutant.end] = (_alternatives(mutant, number), [mutant])

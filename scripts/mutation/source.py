@@ -44,7 +44,7 @@ class Source:
 
     @cached_property
     def _nonblocking(self) -> set[int]:
-        """SystemVerilog's `<=` that assign: the first one of a statement, outside brackets."""
+        """Indices of `<=` that are SystemVerilog assignments: the first in a statement, outside brackets."""
         found: set[int] = set()
         if self.language == CPP:
             return found
@@ -54,7 +54,7 @@ class Source:
         return found
 
     def _starts_assignment(self, index: int) -> bool:
-        """Whether only the target of an assignment stands between the statement's begin and `index`."""
+        """True if only the assignment's target stands between the statement's begin and `index`."""
         index -= 1
         while self.at(index) in ("]", "}"):
             if self.at(index) == "}":
@@ -107,7 +107,7 @@ class Source:
         return self.at(index) in _BOUNDARIES or self.at(index) in _KEYWORDS or index in self._nonblocking
 
     def expression_begin(self, index: int) -> int:
-        """First token of the condition that a `?` at `index` asks."""
+        """First token of the condition of a `?` at `index`."""
         position = index - 1
         while position >= 0 and not self._stops(position) and self.at(position) not in ("(", "[", "{"):
             position = self.partner.get(position, position) if self.at(position) in (")", "]", "}") else position

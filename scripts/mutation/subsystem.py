@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mutants of hdl/subsystem: each is compiled by Verilator into the subsystems of the C++ tests, which then run."""
+"""Mutants of hdl/subsystem: Verilator compiles each into the subsystems of the C++ tests, which then run."""
 
 import re
 import shutil
@@ -36,7 +36,7 @@ def select(tree: Path, count: int, seed: int) -> Selection:
 
 
 def killer(output: str) -> str:
-    """The test that failed first, or what ended the program."""
+    """Name of the test that failed first, or how the program ended."""
     failed = FAILED.search(output)
     return f"{TARGET}: {failed.group(1)}" if failed else f"{TARGET} ends early"
 
@@ -75,7 +75,7 @@ class Build:
         self._run(["ninja", "-j", str(self.jobs), "-C", self.binary, TARGET])
 
     def test(self, timeout_s: float | None) -> str | None:
-        """The test that fails, or that the program hangs; None if all pass."""
+        """Name of the failed test, or that the program hangs; None if all pass."""
         program = next(self.binary.rglob(TARGET))
         try:
             result = subprocess.run([program, f"--gtest_filter={TESTS}", "--gtest_fail_fast", "--gtest_brief=1"],
@@ -98,7 +98,7 @@ class Build:
 
 
 def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
-    """Judges `count` mutants. Stops if a test fails without any."""
+    """Judges `count` mutants. Stops if a test fails without a mutant."""
     progress.show("subsystem without mutants")
     try:
         build = Build(folder.resolve(), jobs)

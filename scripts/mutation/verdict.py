@@ -7,7 +7,7 @@ STATES = ("killed", "proved equivalent", "argued equivalent", "survived")
 
 
 class MutationError(Exception):
-    """A reason why mutants cannot be judged, in one line."""
+    """Mutants cannot be judged; the message gives the reason in one line."""
 
 
 @dataclass(frozen=True)

@@ -30,13 +30,13 @@ def targets_of(text: str) -> set[str]:
 
 
 def targets(root: Path) -> dict[str, str]:
-    """What make can be asked for by name, described or not, and the makefile that has it."""
+    """Targets of make, described or not, and the makefile of each."""
     return {name: str(makefile.relative_to(root)) for makefile in makefiles(root)
             for name in targets_of(makefile.read_text(encoding="utf-8"))}
 
 
 def commands(root: Path) -> dict[str, Command]:
-    """By target, those that a comment describes. A makefile of its own says more than the first one's list."""
+    """Described targets by name. The description in a makefile of its own is preferred to the one in the main makefile."""
     found: dict[str, Command] = {}
     studies = {name: [study["does"]] for name, study in reports.studies(root).items()}
     for makefile in makefiles(root):

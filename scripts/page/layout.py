@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What all pages have around their content: the bar with the navigation and the search, and the list of a page's headings."""
+"""The frame of all pages: navigation bar with search, and the list of a page's headings."""
 
 import html
 import re
@@ -15,7 +15,7 @@ FEWEST_LISTED = 3  # headings: a page with fewer has no list of them
 
 @dataclass(frozen=True)
 class Entry:
-    """A place that the bar leads to. `folder`: pages below it belong to the entry, too."""
+    """An entry of the navigation bar. `folder`: pages below it also belong to the entry."""
 
     title: str
     page: str
@@ -23,7 +23,7 @@ class Entry:
 
 
 def bar(page: str, entries: list[Entry]) -> str:
-    """The entry of the page itself is marked: the one that is the page, else the one whose folder has it."""
+    """The navigation bar with the page's entry marked: the entry of the page itself, else the one whose folder contains the page."""
     here = next((entry for entry in entries if entry.page == page), None) or \
         next((entry for entry in entries if entry.folder and page.startswith(entry.folder)), None)
     links = "".join(f'<a href="{html.escape(render.relative(entry.page, page))}"{" aria-current=page" if entry is here else ""}>'
@@ -34,7 +34,7 @@ def bar(page: str, entries: list[Entry]) -> str:
 
 
 def contents(body: str) -> str:
-    """Links to the headings of the second level."""
+    """List of links to the headings of the second level."""
     found = [(match["anchor"] or match["section"], TAG.sub("", match["text"] or match["title"])) for match in HEADING.finditer(body)]
     if len(found) < FEWEST_LISTED:
         return ""
@@ -43,7 +43,7 @@ def contents(body: str) -> str:
 
 
 def whole(page: str, title: str, body: str, entries: list[Entry], scripts: tuple[str, ...] = ()) -> str:
-    """The page. The doors of the start page are its list of headings."""
+    """A complete page. On the start page, its three doors replace the list of headings."""
     root = render.relative("index.html", page).removesuffix("index.html")
     listed = "" if page == "index.html" else contents(body)
     loaded = "".join(f'<script src="{root}{name}" defer></script>\n' for name in ("page.js", *scripts))

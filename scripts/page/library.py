@@ -26,7 +26,7 @@ class Library:
 
 
 def pinned() -> dict[str, str]:
-    """Version and integrity, as package-lock.json has them."""
+    """Version and integrity of the library, from package-lock.json."""
     lock = json.loads((LISTS / "package-lock.json").read_text(encoding="utf-8"))
     return lock["packages"][f"node_modules/{NAME}"]
 
@@ -46,7 +46,7 @@ def fetch(root: Path) -> Library:
 
 
 def install(folder: Path) -> str:
-    """What is wrong, or nothing."""
+    """Installs the library; returns the fault, or an empty text."""
     if shutil.which("npm") is None:
         return "npm is not installed"
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether every link of a folder of pages resolves inside it."""
+"""Checks that every link in a folder of pages resolves inside the folder."""
 
 from html.parser import HTMLParser
 from pathlib import Path
@@ -11,7 +11,7 @@ RESOURCES = {"img": "src", "script": "src", "link": "href", "iframe": "src", "so
 
 
 class Page(HTMLParser):
-    """What a page links to, and what can be linked to in it."""
+    """Links of a page, and its anchors."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -31,7 +31,7 @@ class Page(HTMLParser):
 
 
 def problems(folder: Path) -> list[str]:
-    """A sentence for each link or resource that leads nowhere or out of the folder, and each anchor that is twice."""
+    """A sentence for each link or resource that leads nowhere or out of the folder, and for each anchor that occurs twice."""
     pages = {}
     for path in sorted(folder.rglob("*.html")):
         pages[path] = Page()

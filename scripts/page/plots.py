@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the live plots show: figures of reports/figures.json and of the tables under reports/, with the command that made each.
+"""Data of the live plots: figures of reports/figures.json and of the tables under reports/, with the command that made each.
 
 plots.js draws what is written here. A plot has rows; a row is a read-out at a light, with a value of each measure."""
 
@@ -54,7 +54,7 @@ class Plot:
 
 
 class Titles:
-    """Titles of the read-outs, by what tables call them, and whose marks a title has."""
+    """Titles of the read-outs by their names in tables, and the marker of each title."""
 
     def __init__(self) -> None:
         self.styles = plot_style.load()
@@ -96,7 +96,7 @@ def area(root: Path, _titles: Titles) -> Iterator[Row]:
 
 
 def scenes(root: Path, _titles: Titles) -> Iterator[Row]:
-    """Each scene, and all but the flat targets, weighted by their pixels."""
+    """Rows for each scene, and for all scenes except the flat ones, weighted by pixels."""
     measured = rows_of(root, "scenes.csv")
     columns = {ABOVE_3: "above_3_percent", ABOVE_10: "above_10_percent"}
     together: dict[tuple[str, str, str], list[dict[str, str]]] = {}
@@ -124,7 +124,7 @@ def hostile(root: Path, titles: Titles) -> Iterator[Row]:
 
 
 def dynamic_range(root: Path, titles: Titles) -> Iterator[Row]:
-    """At one signal and one light at a time, first those of the thesis by day."""
+    """Rows for one signal and one light level at a time; first the thesis's by day."""
     rows = [row for row in rows_of(root, "data/dynamic_range.csv.gz") if row["part"] == "grid"]
     rows.sort(key=lambda row: (row["signal"] != "1", float(row["signal"]), row["klux"] != "14", int(row["klux"]), int(row["acquisitions"])))
     for row in rows:
@@ -153,7 +153,7 @@ PLOTS: tuple[tuple[Plot, Callable[[Path, Titles], Iterator[Row]]], ...] = (
 
 
 def stale_lines(root: Path) -> dict[str, tuple[str, ...]]:
-    """By report, the lines that say that it, or a report whose files it reads, was measured on other inputs than those that lie here."""
+    """For each report, the marks of stale reports among it and the reports whose files it reads."""
     if not (root / LIST).is_file():
         return {}
     listed, tree, known = load(root), SourceTree(root), staleness.measured(root)
@@ -179,7 +179,7 @@ def collect(root: Path) -> tuple[list[Plot], Titles]:
 
 
 def as_script(plots: list[Plot], titles: Titles) -> str:
-    """The data as a script, for a browser reads no other file beside a page that was opened from a disk."""
+    """The data as a script, because a page opened from a disk can load scripts but no other files."""
     families = {titles.family(row.label) for plot in plots for row in plot.rows}
     data = {"readouts": titles.marks(families), "lights": sorted({row.light for plot in plots for row in plot.rows}), "plots": [
         {"name": plot.name, "title": plot.title, "kind": plot.kind, "xTitle": plot.x_title, "command": plot.command, "stale": plot.stale,
@@ -189,7 +189,7 @@ def as_script(plots: list[Plot], titles: Titles) -> str:
 
 
 def as_entry(plot: Plot, row: Row, titles: Titles) -> dict[str, object]:
-    """A row without what is empty."""
+    """A row as JSON, without empty values."""
     entry = {"label": row.label, "readout": titles.family(row.label), "light": row.light, "x": row.x, "at": row.at, "note": row.note,
              "figure": row.figure, "small": row.small,
              "values": [[None if end is None else round(end, 6) for end in row.values[measure]] for measure in plot.measures]}

@@ -101,7 +101,7 @@ class Rewriter(HTMLParser):
 
 
 def to_html(text: str, link: Callable[[str], str | None], lower_headings: int = 0, prefix: str = "") -> str:
-    """`lower_headings`: levels by which headings go down; `prefix`: before each heading's anchor."""
+    """Markdown as HTML. `lower_headings`: number of levels by which headings move down; `prefix`: put before each heading's anchor."""
     rewriter = Rewriter(link, lower_headings, prefix)
     # A list may follow its paragraph without a blank line, as on GitHub.
     spaced = re.sub(r"^(?![-*] |\s|\||#|$)(.*)\n(?=[-*] )", r"\1\n\n", text, flags=re.MULTILINE)
@@ -120,7 +120,7 @@ def title(text: str, otherwise: str) -> str:
 
 
 def sections(text: str) -> list[tuple[list[str], list[str]]]:
-    """Path of headings below the title, and lines with the heading; first what precedes the first of them, with the title."""
+    """Sections of a page: the path of headings below the title, and the lines. The first section is the text before the first heading."""
     parts: list[tuple[list[str], list[str]]] = [([], [])]
     path: list[str] = []
     fenced = False
@@ -135,8 +135,8 @@ def sections(text: str) -> list[tuple[list[str], list[str]]]:
 
 
 def excerpt(text: str, headings: tuple[str, ...]) -> str:
-    """What precedes the first heading below the title and, for each path of patterns "a/b", the sections of that path
-    with their headings."""
+    """The text before the first heading below the title and, for each path of patterns "a/b", the sections of that path with their
+    headings."""
     parts = sections(text)
     shown = ["\n".join(line for line in parts[0][1] if not HEADING.match(line)).strip()]
     for wanted in headings:
@@ -149,5 +149,5 @@ def excerpt(text: str, headings: tuple[str, ...]) -> str:
 
 
 def relative(target: str, page: str) -> str:
-    """Address of a file of the page's folder from another one."""
+    """Relative address of a file in the page's folder from another file."""
     return Path(os.path.relpath(target, Path(page).parent)).as_posix()

@@ -16,7 +16,7 @@ WORD = re.compile(r"[^\W\d_]")
 
 
 class Place:
-    """A heading, or a row of a table that has an anchor, with the text below it."""
+    """A heading, or a table row with an anchor, and the text below it."""
 
     def __init__(self, anchor: str) -> None:
         self.anchor = anchor
@@ -62,7 +62,7 @@ class Places(HTMLParser):
             self.found[-1].text.append(" ")
 
     def close_cell(self, text: str) -> None:
-        """A cell without a word is a figure, which nobody looks for by its digits."""
+        """Drops a cell without a word: nobody searches for the digits of a figure."""
         self.cell = None
         if not WORD.search(text):
             return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the page shows: reports, where they lie, the commands that make them."""
+"""Contents of the page: reports, their files, and the commands that make them."""
 
 import gzip
 import re
@@ -71,7 +71,7 @@ OTHERS = (
 )
 
 def _studies() -> tuple[Report, ...]:
-    """The pages of studies.toml."""
+    """The reports of studies.toml."""
     found = []
     for name, study in reports.studies(ROOT).items():
         for page in study.get("page", []):
@@ -93,7 +93,7 @@ ALL = (FRAME, *SHOWN, *LISTED)
 
 
 def without_pictures(text: str, kept: list[str]) -> str:
-    """A report's text for reports/: pictures that are not kept there leave a sentence."""
+    """Text of a report for reports/: pictures that are not stored there are replaced by a sentence."""
     lines = []
     for line in text.splitlines():
         if line.startswith(PICTURE_LINE) and not any(f"]({name})" in line for name in kept):
@@ -104,7 +104,7 @@ def without_pictures(text: str, kept: list[str]) -> str:
 
 
 def without_tables(lines: list[str]) -> list[str]:
-    """Lines without tables and what announces them, a paragraph of one line that ends with a colon."""
+    """Lines without tables and without their announcements (paragraphs of one line that end with a colon)."""
     kept: list[str] = []
     for line in lines:
         if line.startswith("|"):
@@ -118,7 +118,7 @@ def without_tables(lines: list[str]) -> list[str]:
 
 
 def shortened(report: Report, text: str) -> str:
-    """The text without what `left_out` and `text_only` name, and with a sentence that says where that is."""
+    """The text without the parts in `left_out` and `text_only`, and with a sentence that says where these are."""
     note = f"*The whole report, with {{}} more lines of tables, is what `make {report.target}` writes to build/{report.built}; " \
         "`make report` shows it.*"
     pattern = re.compile(re.escape(note).replace(re.escape("{}"), r"(\d+)") + r"\n*$")
@@ -135,7 +135,7 @@ def shortened(report: Report, text: str) -> str:
 
 
 def for_reports(report: Report, root: Path) -> str:
-    """The text of what lies in build/ as it is under reports/."""
+    """Converts the text of a report in build/ to its form in reports/."""
     assert report.built is not None
     return as_committed(report, (root / "build" / report.built).read_text(encoding="utf-8"))
 
@@ -154,7 +154,7 @@ def as_committed(report: Report, text: str) -> str:
 
 
 def copy_table(source: Path, target: Path) -> None:
-    """As it is, or compressed unless it is so already, always to the same bytes."""
+    """Copies a table, compressed if it is not yet. Equal tables give equal bytes."""
     target.parent.mkdir(parents=True, exist_ok=True)
     content = source.read_bytes()
     compress = target.suffix == COMPRESSED and source.suffix != COMPRESSED
@@ -162,7 +162,7 @@ def copy_table(source: Path, target: Path) -> None:
 
 
 def chosen(report: Report, root: Path) -> Path | None:
-    """The report to show: what lies in build/, which has the pictures, unless reports/ has a newer one."""
+    """File of the report to show: the one in build/, which has the pictures, unless the one in reports/ is newer."""
     committed = root / "reports" / report.committed
     built = root / "build" / report.built if report.built else None
     if built is None or not built.is_file():

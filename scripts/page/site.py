@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the pages: the start page, the results, one of each report and document, and what their search reads."""
+"""Writes the pages: start page, results, a page per report and document, and the search index."""
 
 import html
 import re
@@ -60,7 +60,7 @@ class Site:
             self.entries.insert(1, layout.Entry("Playground", PLAYGROUND))
 
     def stale_pages(self) -> dict[str, str]:
-        """By report, the line that says that it was measured on other inputs than those that lie here."""
+        """Mark of each stale report, by report."""
         if not (self.root / LIST).is_file():
             return {}
         listed = load(self.root)
@@ -79,7 +79,7 @@ class Site:
         return found
 
     def text(self, report: Report) -> str:
-        """The report with the line that says whether it is stale, which what lies in build/ does not have."""
+        """Text of a report with its stale mark, which files in build/ lack."""
         source = self.sources[report.name]
         assert source is not None
         text = staleness.without_mark(source.read_text(encoding="utf-8"))
@@ -88,7 +88,7 @@ class Site:
     # ---- Links ------------------------------------------------------------------------------------------
 
     def copied(self, source: Path, page: str) -> str:
-        """Address of a copy of the file. Those of a report lie together, whether from build/ or reports/."""
+        """Copies the file; returns its address from `page`. Files of a report are copied to one folder, whether from build/ or reports/."""
         place = Path("files") / source.relative_to(self.root)
         (self.out / place).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, self.out / place)
@@ -101,7 +101,7 @@ class Site:
         return self.documents[path]
 
     def linker(self, source: Path, page: str, prefix: str = ""):
-        """Where an address in the Markdown file `source` leads on `page`."""
+        """Function that maps an address in the Markdown file `source` to one on `page`."""
         report = self.reports.get(source)
         folders = [source.parent] + ([(self.root / "reports" / report.committed).parent] if report else [])
         whole = self.whole_page(report) if report else page
@@ -137,7 +137,7 @@ class Site:
         return f'<a href="{render.relative(COMMANDS, page)}#make-{target}"><code>make {target}</code></a>'
 
     def mark(self, report: Report) -> str:
-        """The line of a stale report."""
+        """Stale mark of a report; empty if it is fresh."""
         if report.name not in self.marks:
             return ""
         return f'<blockquote class="stale">{render.to_html(self.marks[report.name], lambda _: None)}</blockquote>'
@@ -151,7 +151,7 @@ class Site:
                 "</code>.</p>")
 
     def pictures(self, report: Report, page: str) -> str:
-        """Those that the report's text does not name."""
+        """Pictures of the report that its text does not show."""
         source = self.sources[report.name]
         assert source is not None
         shown = []
@@ -168,7 +168,7 @@ class Site:
         return "\n".join(shown)
 
     def shown(self, report: Report) -> str:
-        """A section of the page of results."""
+        """Section of a report on the page of results."""
         source = self.sources[report.name]
         parts = [f'<section id="{report.name}"><h2>{html.escape(report.title)}</h2>', self.made_by(report, RESULTS)]
         if source is not None:
@@ -178,7 +178,7 @@ class Site:
         return "\n".join(parts) + "\n</section>"
 
     def frame_figures(self, page: str) -> str:
-        """The main job's table."""
+        """Table of the main job's figures."""
         source = self.sources[FRAME.name]
         if source is None:
             return self.made_by(FRAME, page)
@@ -198,7 +198,7 @@ class Site:
         return "\n".join(parts)
 
     def frame(self) -> str:
-        """The main job: figures of every read-out, then its maps."""
+        """Section of the main job: figures of every read-out, then its maps."""
         source = self.sources[FRAME.name]
         parts = [f'<section id="{FRAME.name}"><h2>{FRAME.title}</h2>', self.frame_figures(RESULTS)]
         if source is None:
@@ -255,7 +255,7 @@ class Site:
     # ---- Pages ------------------------------------------------------------------------------------------
 
     def write_page(self, page: str, title: str, body: str, searched: bool = True, scripts: tuple[str, ...] = ()) -> None:
-        """`searched`: whether the search finds the page's text, which it shall do once for each text."""
+        """Writes a page. `searched`: include its text in the search index, which should have each text once."""
         path = self.out / page
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(layout.whole(page, title, body, self.entries, scripts), encoding="utf-8")
@@ -263,7 +263,7 @@ class Site:
             self.index.add(page, title, body)
 
     def write_start(self) -> None:
-        """What it is, three doors, and what it comes to."""
+        """Writes the start page: what the project is, three doors, results."""
         page = "index.html"
         readme = self.root / "README.md"
         text = readme.read_text(encoding="utf-8") if readme.is_file() else ""
@@ -283,7 +283,7 @@ class Site:
         self.write_page(page, NAME, "\n".join(body))
 
     def first_picture(self, page: str) -> str:
-        """Area against accuracy, which leads to the plots."""
+        """Picture of area against accuracy, with a link to the plots."""
         plot = self.plots[0]
         picture = self.root / "reports" / plot.picture
         if not picture.is_file():
@@ -299,7 +299,7 @@ class Site:
         self.write_page(COMMANDS, "Commands", self.commands_table())
 
     def write_plots(self) -> None:
-        """The live plots; without their library, pictures of the same figures."""
+        """Writes the live plots; without their library, pictures of the same figures."""
         live = self.library.script is not None
         body = ["<h1>Plots</h1>"]
         if live:
@@ -351,7 +351,7 @@ class Site:
         self.write_page(page, heading or report.title, body + "\n" + self.pictures(report, page))
 
     def write(self) -> list[str]:
-        """Writes all pages; what is wrong with their links."""
+        """Writes all pages; returns the faults of their links."""
         if self.out.is_dir() and any(self.out.iterdir()) and not (self.out / "index.html").is_file():
             return [f"{self.out}: has other files than these pages, which replace its content"]
         shutil.rmtree(self.out, ignore_errors=True)
@@ -373,7 +373,7 @@ class Site:
         return problems(self.out)
 
     def write_playground(self) -> None:
-        """As it was built, with a way back to the start page."""
+        """Copies the playground as it was built, with a link back to the start page."""
         text = self.playground.read_text(encoding="utf-8")
         self.index.add(PLAYGROUND, "Playground", text)
         text = text.replace("<main>", f'<main>\n<p class="hint"><a href="index.html">{NAME}</a></p>', 1)

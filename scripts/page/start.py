@@ -29,7 +29,7 @@ class Door:
 
 
 def about(readme: str) -> str:
-    """The paragraphs between the title and the first picture, without references to what follows them."""
+    """The paragraphs between title and first picture, without references to later text."""
     body = readme.partition("\n")[2]
     return re.split(r"^(?:!\[|## )", body, maxsplit=1, flags=re.MULTILINE)[0].strip().replace(" [1]", "")
 

@@ -47,7 +47,7 @@ def seconds(work) -> float:
 
 
 def whole(points: int, batch: int, slurm: SingleNodeSlurm | None = None) -> float:
-    """A sweep of so many copies, one job at a time or through Slurm, its start apart."""
+    """Seconds of a sweep with this number of copies, one job at a time or through Slurm, without its start."""
     path = description(points, batch)
     folder = FOLDER / path.stem
     shutil.rmtree(folder, ignore_errors=True)
@@ -60,7 +60,7 @@ def whole(points: int, batch: int, slurm: SingleNodeSlurm | None = None) -> floa
 
 
 def slurm_job() -> tuple[int, float]:
-    """(jobs, seconds of each) of a Slurm with one processor, whose jobs run one after the other."""
+    """(jobs, seconds per job) of a Slurm with one processor, whose jobs run one after the other."""
     jobs = 40
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder, SingleNodeSlurm(Path(folder), 1) as slurm:
         return jobs, whole(jobs, 1, slurm) / jobs
@@ -68,7 +68,7 @@ def slurm_job() -> tuple[int, float]:
 
 @dataclass(frozen=True)
 class Large:
-    """A sweep whose batches were written without computing anything."""
+    """A sweep whose batches are written without computing."""
 
     points: int
     plan_s: float
@@ -108,7 +108,7 @@ def large(points: int, batch_size: int) -> Large:
 
 
 def real_point() -> tuple[int, float]:
-    """(points, seconds of each) of REAL, by one processor."""
+    """(points, seconds per point) of REAL on one processor."""
     sweep = plan.load(REAL, ROOT)
     numbers = range(0, sweep.points, EVERY)
     return len(numbers), seconds(lambda: [run_batch.compute(sweep, sweep.point(i)) for i in numbers]) / len(numbers)

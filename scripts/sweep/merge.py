@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rows of all points as one table, in the order of the axes.
+"""Merges the rows of all points to one table, in the order of the axes.
 
-Every batch is checked: it is whole, it is of the present program, command and inputs (its name), and it has exactly the
-points that the description says, each once. So the table is the same byte for byte, wherever and however often jobs ran.
+Every batch is checked: it must be complete, belong to the present program, command and inputs (by its name), and have exactly the points of
+the description, each once. So the table is the same byte for byte, wherever and however often jobs ran.
 """
 
 import csv

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a sweep consists of: its description (TOML), the points, the batches that are jobs, and their files.
+"""Contents of a sweep: its description (TOML), the points, the batches (jobs), and their files.
 
-A point is one value of each axis. Its seed follows from some of its coordinates alone, so that it is the same whatever else
-the sweep has, on whatever machine. A batch is a run of points that one job computes one after the other; its name is the
-hash of the program and files that it reads, of the command and of its points, so that a file of that name is the result of
-exactly these inputs and never has to be computed again.
+A point is one value of each axis. Its seed depends on some of its coordinates alone, so it is the same in any sweep and on any machine. A
+batch is a series of points that one job computes one after the other. Its name is the hash of the program, of the files that it reads, of
+the command and of its points. So a file with this name is the result of exactly these inputs and never has to be computed again.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ KEYS = {"name", "command", "table", "inputs", "batch", "seed_of", "axes"}
 
 
 class SweepError(Exception):
-    """Something is wrong with a sweep's description or files; the message says where and what."""
+    """An error in a sweep's description or files; the message says where and what."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ class Batch:
 
 @dataclass(frozen=True)
 class Sweep:
-    """Batches are made when they are asked for: a job needs its own alone, however many there are."""
+    """A sweep. Batches are made on request, since a job needs only its own."""
 
     name: str
     command: str
@@ -68,7 +67,7 @@ class Sweep:
         return -(-self.points // self.batch_size)
 
     def point(self, number: int) -> Point:
-        """The last axis changes first."""
+        """Point with this number; the last axis varies fastest."""
         found = []
         for axis, values in reversed(self.axes):
             number, index = divmod(number, len(values))
@@ -179,7 +178,7 @@ def load(path: Path, root: Path) -> Sweep:
 
 
 def batch_file(folder: Path, batch: Batch) -> Path:
-    """At most a thousand files of a description in a folder."""
+    """File of a batch; a folder has at most a thousand of them."""
     return folder / "batches" / f"{batch.number // 1000}" / f"{batch.number}_{batch.name}.json"
 
 

@@ -48,7 +48,7 @@ def checksum(header: list[str], points: list) -> str:
 
 
 def write(path: Path, batch: plan.Batch, header: list[str], points: list) -> None:
-    """Complete or not at all, also when the job is killed while it writes."""
+    """Writes the whole file or nothing, even if the job is killed while it writes."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.NamedTemporaryFile("w", dir=path.parent, prefix=".", suffix=".part", encoding="utf-8", delete=False) as file:
         json.dump({"batch": batch.name, "header": header, "points": points, "checksum": checksum(header, points)}, file)
@@ -59,7 +59,7 @@ def write(path: Path, batch: plan.Batch, header: list[str], points: list) -> Non
 
 
 def wanted(path: Path, number: int, name: str) -> tuple[plan.Sweep, plan.Batch]:
-    """The sweep and its batch, which must have this name."""
+    """The sweep, and its batch with this number, which must have this name."""
     sweep = plan.load(path, ROOT)
     batch = sweep.batch(number)
     if batch.name != name:

@@ -16,7 +16,7 @@ START_SECONDS = 60
 
 
 class CannotStart(Exception):
-    """A daemon is missing or ended at once; the message has the end of its log."""
+    """A daemon is missing or stopped at once; the message has the end of its log."""
 
 
 def _free_port() -> int:
@@ -26,7 +26,7 @@ def _free_port() -> int:
 
 
 class SingleNodeSlurm:
-    """A context; inside it `environment` makes Slurm's programs talk to this one."""
+    """Context manager of a Slurm; its `environment` connects Slurm's programs to it."""
 
     def __init__(self, folder: Path, processors: int) -> None:
         self._folder = folder
@@ -65,7 +65,7 @@ class SingleNodeSlurm:
         self._daemons.clear()
 
     def output(self, *command: str) -> str:
-        """What one of Slurm's programs prints; empty if the program fails."""
+        """Output of one of Slurm's programs; empty if the program fails."""
         result = subprocess.run(command, env=self.environment, capture_output=True, text=True, check=False)
         return result.stdout if result.returncode == 0 else ""
 

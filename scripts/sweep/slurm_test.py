@@ -63,7 +63,7 @@ class Sweep(unittest.TestCase):
 
     @classmethod
     def run_whole(cls, name: str, *options: str) -> tuple[bytes, str]:
-        """The table and what was printed."""
+        """Runs a sweep; returns the table and the output."""
         result = subprocess.run(cls.command(name, *options), env=cls.slurm.environment, capture_output=True, text=True,
                                 check=False)
         if result.returncode != 0:
@@ -71,14 +71,14 @@ class Sweep(unittest.TestCase):
         return plan.table_file(cls.folder / name).read_bytes(), result.stdout
 
     def start(self, name: str) -> subprocess.Popen:
-        """Through Slurm, in a process group of its own."""
+        """Starts a sweep through Slurm, in a process group of its own."""
         log = (self.folder / f"{name}.log").open("w", encoding="utf-8")
         self.addCleanup(log.close)
         return subprocess.Popen(self.command(name, "--slurm"), env=self.slurm.environment, stdout=log, stderr=log,
                                 start_new_session=True)
 
     def batches(self, name: str) -> dict[Path, int]:
-        """The files and when each was written."""
+        """Batch files and the time at which each was written."""
         return {path: path.stat().st_mtime_ns for path in (self.folder / name).glob("batches/*/*.json")}
 
     def wait_for(self, what: str, ready, sweep: subprocess.Popen):

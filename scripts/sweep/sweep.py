@@ -28,7 +28,7 @@ PROGRESS = re.compile(r"\d+ of \d+ steps .* done")
 
 @contextlib.contextmanager
 def alone(folder: Path) -> Iterator[int]:
-    """Holds the folder against a second run; the lock lives as long as any process that has the descriptor."""
+    """Locks the folder against a second run. The lock lasts as long as any process with the descriptor."""
     with (folder / ".lock").open("w", encoding="utf-8") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -53,7 +53,7 @@ def _slurm(*command: str) -> str:
 
 
 def cancel_jobs(name: str) -> None:
-    """Jobs that a killed workflow left in Slurm would do what the next one does, at the same time."""
+    """Cancels jobs that a killed workflow left in Slurm; they would repeat the next workflow's work."""
     chosen = f"--name={name}", f"--user={getpass.getuser()}"
     queue = "squeue", "--noheader", "--format=%A", *chosen
     left = _slurm(*queue).split()
@@ -91,7 +91,7 @@ def show(lines: Iterable[str]) -> None:
 
 
 def run(command: list[str], folder: Path, lock: int) -> int:
-    """A workflow that was killed leaves Snakemake's lock behind; ours says that nobody is at work."""
+    """Runs a workflow. A killed workflow leaves Snakemake's lock behind; our own lock shows that nobody else is running."""
     environment = {**os.environ, "SBATCH_JOB_NAME": job_name(folder)}
     try:
         subprocess.run([*command, "--unlock"], check=False, capture_output=True)

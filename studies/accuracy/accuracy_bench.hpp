@@ -22,115 +22,120 @@
 
 namespace dtof {
 
-/// Makes the photons of a scene; the exact event-by-event model unless another is chosen.
+/// Makes the photon source of a scene. Default: the exact event-by-event model.
 using SourceFactory =
     std::function<std::unique_ptr<StreamSource>(const SensorModel& sensor, const TargetMap& targets,
                                                 double klux, std::uint64_t seed, std::uint32_t frame)>;
 std::unique_ptr<StreamSource> make_exact_source(const SensorModel& sensor, const TargetMap& targets,
                                                 double klux, std::uint64_t seed, std::uint32_t frame);
 
-/// A distance sweep at one light level. Every read-out sees the same photons, which are generated once.
+/// A distance sweep at one light level. All read-outs see the same photons, which are generated once.
 struct StudySettings {
   SensorModel sensor;
   double klux = 14.0;
   double reflectivity = 1.0;
   std::vector<double> distances_m;
   std::vector<ReadoutParameters> readouts;
-  bool matched_filter = true;       ///< on a pixel's full histogram, knowing both rates: the reference
-  int frames = 1000;                ///< a distance; with `precision` the first batch
-  std::optional<double> precision;  ///< wanted relative half width of the intervals of precision and rmse
-  double rare_outliers = 1e-3;      ///< `precision` does not wait for outliers rarer than this share
-  int most_frames = 100'000;        ///< where `precision` gives up
-  bool lookup_table = true;         ///< fit the host's table; without it, distances are those of Eq. 3.11
-  /// Names the calibration run. Not `run.seed`: a sensor is calibrated once, and its figures are those of
-  /// this one table, whatever is measured with it afterwards.
+  bool matched_filter = true;  ///< also measure the reference: a matched filter on each pixel's full
+                               ///< histogram, with known signal and background rates
+  int frames = 1000;           ///< frames per distance; with `precision`, of the first batch
+  /// Relative half width of the intervals of precision and rmse at which to stop.
+  std::optional<double> precision;
+  double rare_outliers = 1e-3;  ///< outliers rarer than this share do not delay `precision`
+  int most_frames = 100'000;    ///< limit on frames if `precision` is not reached
+  bool lookup_table = true;     ///< fit the host's look-up table; without it, distances follow Eq. 3.11
+  /// Seed of the calibration run. It differs from `run.seed` because a sensor is calibrated once: its figures
+  /// belong to this one table, whatever is measured later.
   std::uint64_t calibration_seed = 1;
   int calibration_frames = 200;
   double calibration_step_m = 0.05;
-  std::optional<double> rejection;  ///< wanted share of outliers among accepted measurements
+  std::optional<double> rejection;  ///< largest share of outliers among accepted measurements
   SourceFactory make_source = make_exact_source;
   RunSettings run;
-  std::string command;  ///< to reproduce a difference that --verify finds
+  std::string command;  ///< command that reproduces a difference found by --verify
 
   /// Throws InputError for settings out of range.
   void validate() const;
 };
 
-/// A flat scene of `frames` independent pixels. Binning and coincidence make neighbours depend on each other:
-/// then only pixels (pitch * i + offset) in both directions count. Pool read-outs make all pixels of a column
-/// depend on each other: then columns are as high as the thesis's array, and only one pixel of each counts.
-/// Where columns hear each other, too, a pixel has an engine of several columns of its own.
+/// A flat scene of `frames` independent pixels.
+///
+/// Binning and coincidence make neighbours depend on each other: then only pixels (pitch * i + offset) in
+/// both directions count. Pool read-outs make all pixels of a column depend on each other: then columns are
+/// as high as the thesis's array, and one pixel of each counts. If columns depend on each other, too, each
+/// counted pixel has an engine of several columns.
 struct IndependentPixels {
-  int columns = 1;  ///< that count
-  int rows = 1;     ///< that count
+  int columns = 1;  ///< counted columns
+  int rows = 1;     ///< counted rows
   int pitch = 1;
   int offset = 0;
-  int height = 1;     ///< of a column, in rows of `pitch`
-  int first_row = 0;  ///< that counts, of these
-  int engine = 1;     ///< columns of a pixel's own; that in their middle counts, the right one of a pair
+  int height = 1;     ///< rows of a column, in units of `pitch`
+  int first_row = 0;  ///< first counted row, in the same units
+  int engine = 1;     ///< columns of an engine; the middle one counts, the right one of a middle pair
 
   IndependentPixels(const SensorModel& sensor, int frames, bool pooled = false, int engine_columns = 1);
   [[nodiscard]] TargetMap targets(PixelTarget target) const;
   [[nodiscard]] int column(int index) const { return pitch * index + offset; }
-  /// The column at `place` of a pixel's engine.
+  /// Column at position `place` of the engine with number `index`.
   [[nodiscard]] int column(int index, int place) const { return column(index * engine + place); }
   [[nodiscard]] int row(int index) const { return pitch * (first_row + index) + offset; }
-  /// One stream for each of `height` rows.
+  /// The stream with one row for each of `height` rows.
   [[nodiscard]] ColumnStream whole_column(const ColumnStream& stream) const;
-  /// Only the rows that count.
+  /// The stream with the counted rows only.
   [[nodiscard]] ColumnStream counted_rows(const ColumnStream& stream) const;
 };
 
-/// A read-out, or the matched filter of the single pixel.
+/// A read-out, or the matched filter of single pixels.
 struct Estimator {
   std::string name;  ///< readout_name, or "matched-filter"
   std::string title;
   std::optional<ReadoutParameters> readout;  ///< none: the matched filter
 };
 
-/// Distances of a run, and those that can come out at all.
+/// Distances of a run, and the range of all possible distances.
 struct MeasuredDistances {
   std::vector<double> distances_m;
   Interval range_m;
 };
 
-/// The distances of a calibration run that brackets `distances` (ascending): multiples of the settings' step,
-/// each with photons of its own, whatever the other distances are.
+/// Distances of a calibration run that brackets `distances` (ascending): multiples of the settings' step.
+/// Each has photons of its own that do not depend on the other distances.
 std::vector<double> calibration_distances(const StudySettings& settings, std::span<const double> distances);
 
-/// Read-outs in front of a wall: measures, calibrates, judges. Settings must outlive it.
+/// Measures a flat target with several read-outs, calibrates, and computes errors. The settings must outlive
+/// the bench.
 class AccuracyBench {
  public:
-  using Batch = std::vector<std::vector<Measurement>>;  ///< estimator, frame
+  using Batch = std::vector<std::vector<Measurement>>;  ///< [estimator][frame]
 
   explicit AccuracyBench(const StudySettings& settings);
 
   [[nodiscard]] const std::vector<Estimator>& estimators() const { return estimators_; }
 
-  /// Photons of an evaluation. Those of a calibration are others whatever the seeds are.
+  /// Identity of the photons of an evaluation; they differ from those of all calibrations for any seeds.
   /// Throws InputError for too many points or batches.
   [[nodiscard]] static RunIdentity evaluation_run(std::uint64_t seed, std::size_t point, std::size_t batch);
 
-  /// Independent frames of a wall at `distance_m`, of the estimators that are active.
+  /// Measures independent frames of a flat target at `distance_m` with the active estimators.
   [[nodiscard]] Batch measure(double distance_m, int frames, const RunIdentity& identity,
                               const std::vector<bool>& active) const;
 
-  /// Runs of a calibration at these distances for each estimator, from the settings' seed.
+  /// Calibration runs at these distances for each estimator, with the settings' seed.
   [[nodiscard]] std::vector<std::vector<TargetRun>> calibration_runs(std::span<const double> distances,
                                                                      Progress* progress) const;
   [[nodiscard]] RangeConverter converter(std::size_t estimator, std::span<const TargetRun> runs) const;
 
-  /// Distances of Eq. 3.11.
+  /// Distances by Eq. 3.11.
   [[nodiscard]] MeasuredDistances before_table(std::span<const Measurement> measurements) const;
   [[nodiscard]] MeasuredDistances after_table(const RangeConverter& converter, const TargetRun& run) const;
 
-  /// Standard deviation that no unbiased estimate of the arrival time goes below, m.
+  /// Cramer-Rao bound: least standard deviation of an unbiased distance estimate, m.
   [[nodiscard]] double cramer_rao_m(double distance_m) const;
 
  private:
   void read_rtl(const StreamSource& source, const IndependentPixels& pixels,
                 const ReadoutParameters& parameters, std::vector<Measurement>& measurements) const;
-  /// Measurements of all rows of the judged column, in the engine that has pixel number `index`.
+  /// Measurements of all rows of the counted column in the engine of pixel `index`.
   [[nodiscard]] std::vector<Measurement> read_engine(const StreamSource& source,
                                                      const IndependentPixels& pixels, int index,
                                                      const ReadoutParameters& readout) const;
@@ -141,8 +146,8 @@ class AccuracyBench {
 
   const StudySettings& settings_;
   std::vector<Estimator> estimators_;
-  bool pooled_;  // a pool read-out is among them
-  int engine_;   // columns of a pixel's engine
+  bool pooled_;  // some estimator is a pool read-out
+  int engine_;   // columns of an engine
   DepthScale scale_;
 };
 

@@ -13,27 +13,27 @@
 
 namespace dtof {
 
-/// "value [low, high]", each times `scale`, with `digits` after the point. With few outliers "value [low,
-/// high]* low to high": the second interval allows for outliers that were not seen; "value [low, high]*"
-/// where both are the same.
+/// Text "value [low, high]", each times `scale`, with `digits` decimals. With few outliers "value [low,
+/// high]* low to high"; the second interval allows for unseen outliers. Just "value [low, high]*" if both
+/// intervals are equal.
 std::string format_estimate(const Estimate& estimate, double scale, int digits);
 
-/// Every figure of every point, intervals as columns of their own; SI units, shares 0 .. 1. Columns
-/// `*_low_unseen` and `*_high_unseen` are empty but where fewer than kFewOutliers outliers were seen.
+/// All figures of all points, with intervals in columns of their own; SI units, shares 0 .. 1. Columns
+/// `*_low_unseen` and `*_high_unseen` have values only if fewer than kFewOutliers outliers were seen.
 Table accuracy_csv(std::span<const AccuracyPoint> points);
 
-/// A table of one estimator over distance, with intervals.
+/// Table of one estimator by distance, with intervals.
 Table accuracy_table(std::span<const AccuracyPoint> points);
 
-/// Distances down, estimators across.
+/// Table with a row per distance and a column per estimator.
 Table accuracy_matrix(std::span<const AccuracyPoint> points,
                       const std::function<std::string(const AccuracyPoint&)>& cell);
 
-/// A line for each estimator: `value` over distance.
+/// A line per estimator: `value` against distance.
 std::vector<PlotSeries> accuracy_series(std::span<const AccuracyPoint> points,
                                         const std::function<double(const AccuracyPoint&)>& value);
 
-/// Calls `use` with each estimator's stretch of `points`.
+/// Calls `use` with the points of each estimator.
 void for_each_estimator(std::span<const AccuracyPoint> points,
                         const std::function<void(std::span<const AccuracyPoint>)>& use);
 

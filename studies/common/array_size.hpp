@@ -12,27 +12,27 @@ namespace dtof {
 
 inline constexpr double kThesisSensors = 32000.0;
 
-/// The laser's light shared by `sensors` instead of 32,000 (Eq. 3.3: each gets 1 / sensors of it). Background
-/// stays: it comes by a sensor's own field of view.
+/// Sensor whose laser is shared by `sensors` pixels instead of 32,000, so each gets 1 / sensors of the light
+/// (Eq. 3.3). Background is unchanged, since it depends on a pixel's own field of view.
 SensorModel with_sensors(const SensorModel& sensor, double sensors);
 
-/// How far a read-out is within the customers' limits (thesis 3.4) from 0.2 to 3 m.
+/// Margin of a read-out to the customers' limits (thesis 3.4) from 0.2 to 3 m.
 struct ArrayMargin {
   std::string estimator;
   std::string title;
   double sensors;
-  double by_precision;  ///< largest relative precision / limit over the distances; at most 1 meets them
-  double by_rmse;       ///< the same of rmse after the look-up table over distance
+  double by_precision;  ///< largest relative precision / limit over the distances; at most 1: limits met
+  double by_rmse;       ///< largest (rmse after the look-up table / distance) / limit; at most 1: limits met
 };
 
-/// Margins of every estimator for each number of sensors, estimator by estimator.
+/// Margins of every estimator for each number of sensors, sorted by estimator.
 std::vector<ArrayMargin> array_margins(StudySettings settings, std::span<const double> sensors);
 
 struct LargestArray {
-  double sensors;   ///< largest of those tried that meets the limits; 0: none does
-  double too_many;  ///< next larger one tried, which does not; 0: the largest tried meets them
+  double sensors;   ///< largest number tried that meets the limits; 0: none does
+  double too_many;  ///< next larger number tried, which fails; 0: the largest tried meets the limits
 };
-/// `margin` picks the figure. `margins` are one estimator's.
+/// Largest array by the figure `margin`. `margins` must belong to one estimator.
 LargestArray largest_array(std::span<const ArrayMargin> margins, double ArrayMargin::*margin);
 
 }  // namespace dtof

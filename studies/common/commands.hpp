@@ -11,10 +11,10 @@ class App;
 
 namespace dtof {
 
-/// dtof-study: how well read-outs and photon models do.
+/// The program dtof-study: evaluates read-outs and photon models.
 Program study_program();
 
-/// Each adds its subcommand; `command_line` as in Program.
+/// Each function adds a subcommand; `command_line` as in Program.
 void add_accuracy_command(CLI::App& app, const std::string& command_line);
 void add_scenes_command(CLI::App& app, const std::string& command_line);
 void add_pool_command(CLI::App& app, const std::string& command_line);

@@ -14,21 +14,21 @@
 
 namespace dtof {
 
-// Frames of one engine of the pool read-outs, cut out of the middle of a scene: the smallest array on which
-// every read-out is at home.
+// Frames of one engine of the pool read-outs, cut out of the middle of a scene: the smallest array in which
+// every read-out works as in a full array.
 
-/// Columns judged: an engine of poolPointer.
+/// Number of judged columns: an engine of poolPointer.
 int engine_columns_judged();
-/// Columns read, so that the lean form's engine is whole, too; what it makes of the further ones is not
+/// Number of columns read, which also holds a whole engine of the lean form. Its additional columns are not
 /// judged.
 int engine_columns_read();
 
-/// The scene's pixels around the centre of the sensor's: engine_columns_read() columns.
+/// Middle engine_columns_read() columns of the scene, around the centre of the sensor.
 TargetMap middle_of(Scene scene, const SensorModel& sensor, int rows);
 
-/// Results by column and row.
+/// Results [column][row].
 using EngineResults = std::vector<std::vector<PixelResult>>;
-/// What each read-out made of at least the judged columns. All see the same photons, but for those of the
+/// Results of each read-out for at least the judged columns. All see the same photons, except those of the
 /// first `dropped` acquisitions.
 std::vector<EngineResults> read_engine(const PhotonSource& source,
                                        std::span<const ReadoutParameters> readouts,

@@ -14,8 +14,8 @@
 
 namespace dtof {
 
-/// Repeated frames of a map at one light level; errors are against each pixel's own distance, after the
-/// look-up table of FlatCalibration.
+/// Settings for repeated frames of a map at one light level. Errors are relative to each pixel's own
+/// distance, after the look-up table of FlatCalibration.
 struct MapAccuracySettings {
   SensorModel sensor;
   TargetMap targets{1, 1};
@@ -26,18 +26,18 @@ struct MapAccuracySettings {
   int frames = 8;    ///< at least 4
   SourceFactory make_source = make_exact_source;
   RunSettings run;
-  std::string command;  ///< to reproduce a difference that --verify finds
+  std::string command;  ///< command that reproduces a difference found by --verify
 };
 
-/// One read-out's errors on the pixels of one distance band, over all frames. Intervals come from the spread
-/// of the frames' means; that of a share is at least Wilson's for pixels that are independent.
+/// Errors of one read-out in one distance band, over all frames. Intervals follow from the spread of the
+/// frames' means; an interval of a share is at least Wilson's for independent pixels.
 struct BandAccuracy {
   std::string readout;  ///< readout_name
   std::string title;
   double klux;
   double from_m;
   double to_m;
-  std::uint64_t pixels;  ///< of a frame
+  std::uint64_t pixels;  ///< per frame
   int frames;
   Estimate bias_m;
   Estimate rmse_m;
@@ -45,11 +45,11 @@ struct BandAccuracy {
   Estimate above_10_percent;
 };
 
-/// Edges of ten bands of equal width from the nearest to the farthest target; of one band if all are at one
-/// distance. Throws InputError if the map has no target.
+/// Edges of ten bands of equal width from the nearest to the farthest target; a single band if all distances
+/// are equal. Throws InputError if the map has no target.
 std::vector<double> equal_bands(const TargetMap& targets);
 
-/// Read-out by read-out, bands ascending; bands without a pixel are left out, and the last one of each
+/// Sorted by read-out, then by band (ascending). Bands without pixels are left out; the last band of each
 /// read-out is the whole range. Throws InputError for illegal settings, or if no pixel lies within the bands.
 std::vector<BandAccuracy> run_map_accuracy(const MapAccuracySettings& settings);
 

@@ -8,17 +8,17 @@
 
 namespace dtof {
 
-/// A read-out with some parameters changed, written READOUT:PARAMETER=NUMBER,...: "hispointer:COUNT_WIDTH=8",
-/// "poolpointer:COARSE_SHARE=12,TRACK_SHARE=14". Throws InputError for anything else, for a parameter that
-/// the read-out does not have and for a value that ReadoutParameters::validate refuses. What the text does
-/// not name is that of default_parameters (app/options.hpp).
+/// Parses a read-out with changed parameters, READOUT:PARAMETER=NUMBER,...: "hispointer:COUNT_WIDTH=8",
+/// "poolpointer:COARSE_SHARE=12,TRACK_SHARE=14". Other parameters are those of default_parameters
+/// (sensor/default_parameters.hpp). Throws InputError for anything else, a parameter that the read-out does
+/// not have, and a value that ReadoutParameters::validate refuses.
 ReadoutParameters parse_variant(const std::string& text, const SensorModel& sensor = {});
 
-/// Display name of a read-out with these parameters: those that parse_variant knows and that are not the
-/// sensor's default_parameters follow it, e.g. "hisPointer COUNT_WIDTH=8".
+/// Display name of a read-out, with those parameters of parse_variant that differ from the sensor's
+/// default_parameters, e.g. "hisPointer COUNT_WIDTH=8".
 std::string variant_title(const ReadoutParameters& parameters, const SensorModel& sensor = {});
 
-/// Names that parse_variant knows, with what has them, for messages and help.
+/// Parameters that parse_variant accepts, with their read-outs, for messages and help.
 std::string variant_parameters_help();
 
 }  // namespace dtof

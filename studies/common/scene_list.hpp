@@ -14,7 +14,7 @@
 
 namespace dtof {
 
-/// Which scenes a study reads.
+/// Scenes that a study reads.
 struct SceneChoice {
   std::vector<std::string> scenes = {"flat", "room", "planes", "clutter", "poles", "isolated"};
   std::vector<std::string> maps;
@@ -25,19 +25,19 @@ struct SceneChoice {
   std::string surface_file;
   std::string surface_variable = "T_second";
   bool held_out = false;
-  double distance_scale = 1.0;  ///< all distances times this: for sensors of another range
+  double distance_scale = 1.0;  ///< factor for all distances, for sensors with another range
   int columns = 200;
   std::uint64_t seed = 1;
 };
 
-/// Adds the options that name scenes: --scene, --map and its scales, --disparity, --nearest, --surface,
+/// Adds the options that select scenes: --scene, --map and its scales, --disparity, --nearest, --surface,
 /// --variable, --held-out and --distance-scale.
 void add_scene_options(CLI::App& command, SceneChoice& choice);
-/// To be called when they are parsed: own maps alone need no other scene. Throws InputError for options
-/// without effect.
+/// Completes `choice` after parsing: if only own maps are given, no other scene is read. Throws InputError
+/// for options without effect.
 void check_scene_options(const CLI::App& command, SceneChoice& choice);
 
-/// Scenes of the study, and how maps among them were resampled.
+/// Scenes of a study, and sentences on the resampling of maps.
 struct SceneList {
   std::vector<StudyScene> scenes;
   std::vector<std::string> notes;
@@ -48,10 +48,10 @@ struct SceneList {
   }
 };
 
-/// The least reflectivity of a photographed map, of the sensor's default.
+/// Least reflectivity in a photographed map, relative to the sensor's default.
 inline constexpr double kDarkestPhotographed = 0.05;
 
-/// One of the scenes "flat".
+/// True for the flat scenes ("flat 1 m").
 inline bool is_flat(const std::string& scene) { return scene.starts_with("flat "); }
 SceneList make_scenes(const SceneChoice& options, const SensorModel& sensor);
 

@@ -13,16 +13,17 @@
 
 namespace dtof {
 
-/// Is there a target at all? Frames of sky alone give each read-out one threshold of confidence for all
-/// lights and skies; frames of a wall then say how many of its pixels pass it and are right.
+/// Study of target detection. Frames of sky alone set one confidence threshold per read-out, for all light
+/// levels and skies. Frames of a flat target then give the share of pixels that pass the threshold and have a
+/// correct distance.
 struct DetectionSettings {
   SensorModel sensor;
   std::vector<ReadoutParameters> readouts;
   std::vector<double> klux = {2.0, 14.0, 50.0, 100.0};
-  std::vector<double> sky_reflectivities = {0.5, 1.0, 2.0};  ///< what a sky's sunlight is like
+  std::vector<double> sky_reflectivities = {0.5, 1.0, 2.0};  ///< brightness of a sky, as a reflectivity
   std::vector<double> distances_m = {2.0, 3.0, 4.0, 5.0};
   double wall_reflectivity = 0.5;
-  double false_alarms = 1e-3;  ///< most that pass of any sky's pixels
+  double false_alarms = 1e-3;  ///< largest share of any sky's pixels that may pass
   int seeds = 4;               ///< at least 2
   std::uint64_t seed = 1;
   int threads = 0;
@@ -31,27 +32,28 @@ struct DetectionSettings {
 struct DetectionCell {
   double klux = 0.0;
   double distance_m = 0.0;
-  Estimate detected;  ///< share of the wall's pixels that pass and are at most 10 % off
-  Estimate right;     ///< share that are at most 10 % off
+  Estimate detected;  ///< share of the target's pixels that pass and are at most 10 % off
+  Estimate right;     ///< share of the target's pixels that are at most 10 % off
 };
 
 struct ReadoutDetection {
   Readout readout = Readout::kEzPointer;
-  int threshold = 0;                    ///< the lowest confidence that no sky has too often
-  std::vector<double> held_out_alarms;  ///< share of each sky that passes, of other seeds; lights first
-  std::vector<DetectionCell> cells;     ///< lights first
+  int threshold = 0;  ///< lowest confidence that meets `false_alarms` for all skies
+  /// Share of each sky's pixels that pass, with other seeds; sorted by light.
+  std::vector<double> held_out_alarms;
+  std::vector<DetectionCell> cells;  ///< sorted by light
 };
 
-/// Measures read-outs that have a confidence on an engine's columns of the sensor's rows. Throws InputError
-/// for settings out of range.
+/// Measures the read-outs that have a confidence, on an engine's columns with the sensor's rows. Throws
+/// InputError for settings out of range.
 std::vector<ReadoutDetection> run_detection(const DetectionSettings& settings);
 
 std::string detection_report(const DetectionSettings& settings, const std::vector<ReadoutDetection>& study,
                              const std::string& command_line);
 Table detection_csv(const std::vector<ReadoutDetection>& study);
-/// The light nearest to 50 klux, that of the picture.
+/// Light level of the picture: the one nearest to 50 klux.
 double detection_klux(const DetectionSettings& settings);
-/// Detection over distance at that light.
+/// Share detected against distance, at that light level.
 std::vector<PlotSeries> detection_curves(const DetectionSettings& settings,
                                          const std::vector<ReadoutDetection>& study);
 

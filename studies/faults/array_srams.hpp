@@ -8,13 +8,13 @@
 
 namespace dtof {
 
-/// What an SRAM of an array holds.
+/// Contents of an SRAM of an array.
 enum class SramKind { kHistogram, kPointer, kCoarsePeak, kBestPeak, kPoolQuad, kEngineScratch };
 
 /// E.g. "coarse peak".
 std::string_view sram_title(SramKind kind);
 
-/// Columns of an array, neighbours: first, first + 1, .. first + count - 1.
+/// Neighbouring columns of an array: first .. first + count - 1.
 struct ColumnRange {
   int first = 0;
   int count = 0;
@@ -23,9 +23,8 @@ struct ColumnRange {
   bool operator==(const ColumnRange&) const = default;
 };
 
-/// The columns that may change with these: of a pool read-out those of every engine that has one of them,
-/// since columns of an engine hear each other. `together`: ReadoutParameters::columns_together(); `sram_num`:
-/// of the array.
+/// Columns whose results may change with those of `columns`. In a pool read-out these are all columns of the
+/// affected engines. `together`: ReadoutParameters::columns_together(); `sram_num`: columns of the array.
 ColumnRange heard_by(ColumnRange columns, int together, int sram_num);
 
 /// An SRAM and the columns that use it.
@@ -35,10 +34,10 @@ struct ArraySram {
   RtlSram sram;
 };
 
-/// All SRAMs of the array in the order of their columns. Throws std::logic_error for one that has no kind.
+/// All SRAMs of the array, sorted by column. Throws std::logic_error for an SRAM of unknown kind.
 std::vector<ArraySram> array_srams(const RtlReadout& rtl);
 
-/// The kinds among them, each once.
+/// The kinds of these SRAMs, each once.
 std::vector<SramKind> sram_kinds(const std::vector<ArraySram>& srams);
 
 }  // namespace dtof

@@ -18,7 +18,7 @@ struct PixelPlace {
   bool operator==(const PixelPlace&) const = default;
 };
 
-/// The pixels that a fault may touch: those of its columns, of a pool read-out its engine's, without the
+/// Pixels that a fault may affect: those of its columns (in a pool read-out, of its engine), without the
 /// faulty pixel itself.
 struct FaultReach {
   ColumnRange columns;
@@ -29,19 +29,19 @@ struct FaultReach {
   }
 };
 
-/// What one fault did to the frame that it disturbed, against the frame without it.
+/// Effect of one fault on a frame, relative to the frame without the fault.
 struct FaultEffect {
-  int pixels = 0;          ///< within reach
-  int changed = 0;         ///< whose result differs, if only in its confidence
-  int moved = 0;           ///< whose depth differs
-  int beyond = 0;          ///< whose depth moved by more than 3 % of the distance
-  double largest_m = 0.0;  ///< the farthest move
+  int pixels = 0;          ///< pixels that the fault may affect
+  int changed = 0;         ///< pixels whose result differs, including in confidence only
+  int moved = 0;           ///< pixels whose depth differs
+  int beyond = 0;          ///< pixels whose depth changed by more than 3 % of the distance
+  double largest_m = 0.0;  ///< largest change of a depth
 };
 
 FaultEffect fault_effect(const FaultSubject& subject, std::span<const PixelResult> actual,
                          const FaultReach& reach);
 
-/// Pixels whose result differs though no fault touches their column.
+/// Number of pixels whose result differs although no fault may affect them.
 int changed_elsewhere(const FaultSubject& subject, std::span<const PixelResult> actual,
                       std::span<const FaultReach> faults);
 

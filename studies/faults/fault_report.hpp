@@ -9,7 +9,7 @@
 namespace dtof {
 
 struct FaultReport {
-  std::string conclusions;  ///< sentences, a Markdown list
+  std::string conclusions;  ///< sentences as a Markdown list
   std::string markdown;     ///< the whole report
   std::string csv;          ///< a line per case
 };
@@ -17,8 +17,8 @@ struct FaultReport {
 FaultReport report_faults(std::span<const FaultCaseResult> results, const FaultStudyOptions& options,
                           const std::string& command_line);
 
-/// True if every frame ended, no fault reached another column, faulty timestamps gave what the model gives,
-/// and every frame after a fault was right.
+/// True if faults behave as expected: every frame ended, no fault affected another column, faulty timestamps
+/// gave the model's results, and every frame after a fault was correct.
 bool faults_stay_where_they_are(std::span<const FaultCaseResult> results);
 
 }  // namespace dtof

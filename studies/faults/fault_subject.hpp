@@ -14,13 +14,13 @@
 
 namespace dtof {
 
-/// What the array of a fault study sees: a part of the scene `room`, every pixel of a column beside the next
-/// one as in the full array, preset `thesis` at 14 klux.
+/// Scene of a fault study: part of the scene `room` with neighbouring pixels as in the full array; preset
+/// `thesis` at 14 klux.
 struct FaultScene {
   std::uint32_t acquisitions;
   std::uint32_t next_acquisitions;
-  std::vector<ColumnStream> frame;  ///< the frame that faults disturb
-  std::vector<ColumnStream> next;   ///< the frame after it: the same targets, other photons, a third as long
+  std::vector<ColumnStream> frame;  ///< the frame in which faults occur
+  std::vector<ColumnStream> next;   ///< the following frame: the same targets, other photons, a third as long
   std::vector<double> distances_m;  ///< index = row * columns + column
 };
 
@@ -28,15 +28,15 @@ inline constexpr int kFaultRows = 64;
 inline constexpr int kFaultColumns = 12;
 inline constexpr int kFaultEngineColumns = 6;
 
-/// Throws InputError unless there are 1 to 65,535 acquisitions.
+/// Throws InputError unless `acquisitions` is 1 to 65,535.
 FaultScene make_fault_scene(std::uint32_t acquisitions, std::uint64_t seed);
 
-/// A read-out on the array that is compiled for fault studies, and what its frames give without a fault.
-/// Shared by threads. Results: index = row * columns + column.
+/// A read-out on the array compiled for fault studies, and its frames without a fault. May be shared by
+/// threads. Results: index = row * columns + column.
 class FaultSubject {
  public:
   /// `scene` must outlive the subject. Throws InputError if no array is compiled for the read-out, RtlError
-  /// if the array differs from the model though nothing is wrong with it.
+  /// if the array differs from the model without a fault.
   FaultSubject(Readout readout, const FaultScene& scene);
 
   [[nodiscard]] const RtlConfiguration& configuration() const { return configuration_; }
@@ -44,11 +44,11 @@ class FaultSubject {
   [[nodiscard]] const FaultScene& scene() const { return scene_; }
   [[nodiscard]] const std::vector<PixelResult>& expected() const { return expected_; }
   [[nodiscard]] const std::vector<PixelResult>& expected_next() const { return expected_next_; }
-  /// Clocks of the frame in a state, counted from its start.
+  /// Clocks of the frame in which the array is in this state, counted from the frame's start.
   [[nodiscard]] const std::vector<std::uint64_t>& clocks(RtlState state) const {
     return clocks_[static_cast<std::size_t>(state)];
   }
-  /// What the model reads from these columns in a frame of so many acquisitions.
+  /// Results of the model for these columns in a frame of `acquisitions`.
   [[nodiscard]] std::vector<PixelResult> model(std::span<const ColumnStream> columns,
                                                std::uint32_t acquisitions) const;
   /// Depth of a result in m.

@@ -8,16 +8,16 @@
 
 namespace dtof {
 
-/// The column when every slot of every acquisition and pixel carries `code`.
+/// Returns `column` with `code` in every slot of every acquisition and pixel.
 ColumnStream with_stuck_timestamps(const ColumnStream& column, std::uint32_t acquisitions, int slots,
                                    Timestamp code);
 
-/// The column when its pixel `row` fires once more in every acquisition, at what `code` returns for it. The
-/// TDC keeps the first `slots` events of an acquisition.
+/// Returns `column` with an additional event of pixel `row` in every acquisition, at the code that `code`
+/// returns. An acquisition keeps its first `slots` events.
 ColumnStream with_hot_pixel(const ColumnStream& column, int row, std::uint32_t acquisitions, int slots,
                             const std::function<Timestamp()>& code);
 
-/// The column when its pixel `row` sees nothing.
+/// Returns `column` without detections of pixel `row`.
 ColumnStream with_dead_pixel(const ColumnStream& column, int row);
 
 }  // namespace dtof

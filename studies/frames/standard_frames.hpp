@@ -13,36 +13,37 @@
 
 namespace dtof {
 
-/// One scene through every read-out, with several sensors beside each other.
+/// Settings: one scene, read out by several read-outs with several sensors.
 struct StandardFramesSettings {
   std::vector<SensorModel> sensors;
   std::vector<Readout> readouts;
   Scene scene = Scene::kRoom;
   double klux = 14.0;
-  int frames = 4;  ///< with other photons each, at least 2
+  int frames = 4;  ///< frames with different photons, at least 2
   std::uint64_t seed = 1;
   int threads = 0;
 };
 
-/// A read-out's frames with one sensor.
+/// Figures of a read-out's frames with one sensor.
 struct StandardFrame {
   std::string sensor;
   std::uint32_t acquisitions = 0;
   Readout readout = Readout::kEzPointer;
-  std::uint64_t pixels = 0;  ///< of all frames
+  std::uint64_t pixels = 0;  ///< over all frames
   Estimate above_3_percent;
   Estimate above_10_percent;
-  double rmse = 0.0;  ///< of the relative error, over all frames
-  /// Share of the errors above 10 % that are among the tenth of the pixels with the least confidence; mean
-  /// over the frames that have such errors, NaN if none has.
+  double rmse = 0.0;  ///< root mean square of the relative error, over all frames
+  /// Share of the errors above 10 % that lie among the tenth of the pixels with least confidence. Mean over
+  /// the frames with such errors; NaN without.
   double found_by_confidence = 0.0;
 };
 
-/// Models, exact photons, look-up tables by FlatCalibration: the first frame's figures are those of `dtof
-/// frame`. Sensor by sensor. Throws InputError for fewer than two frames, or no sensor or read-out.
+/// Reads frames with the models, exact photons and look-up tables by FlatCalibration. The first frame's
+/// figures equal those of `dtof frame`. Sorted by sensor. Throws InputError for fewer than two frames, or
+/// without sensor or read-out.
 std::vector<StandardFrame> run_standard_frames(const StandardFramesSettings& settings);
 
-/// A frame that RTL read out, each pixel equal to the model's.
+/// A frame read out by the RTL, with all pixels equal to the model's.
 struct CheckedFrame {
   std::string sensor;
   Readout readout = Readout::kEzPointer;
@@ -52,11 +53,11 @@ struct CheckedFrame {
   std::uint64_t cycles = 0;
 };
 
-/// Reads the columns of the first engine out in RTL, with every sensor, and compares each pixel with the
-/// model. Throws RtlError for a difference, and InputError for a read-out whose RTL is not compiled.
+/// Reads out the columns of the first engine in RTL with every sensor, and compares each pixel with the
+/// model. Throws RtlError for a difference, InputError for a read-out without compiled RTL.
 std::vector<CheckedFrame> check_standard_frames(const StandardFramesSettings& settings, Readout readout);
 
-/// The page: read-outs down, sensors across.
+/// Report page: a row per read-out, a column per sensor.
 std::string standard_frames_report(const StandardFramesSettings& settings,
                                    const std::vector<StandardFrame>& frames,
                                    const std::vector<CheckedFrame>& checked, const std::string& command_line);

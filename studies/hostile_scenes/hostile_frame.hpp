@@ -15,27 +15,28 @@
 
 namespace dtof {
 
-/// What is read, with a look-up table of each and of the two references behind them, and what they are told.
+/// Read-outs to measure, with the look-up tables of the read-outs and of the two references, and their
+/// additional knowledge.
 struct Estimators {
   std::vector<ReadoutParameters> readouts;
   std::vector<std::string> names;
   std::vector<RangeConverter> tables;
-  std::vector<double> returns = {};       ///< mean events of each bin from surroundings, for the references
-  std::uint32_t settle = 0;               ///< acquisitions at the frame's start that are dropped
-  const OwnInstants* instants = nullptr;  ///< judged where the target is at the own instant
+  std::vector<double> returns = {};  ///< for the references: mean events of the surroundings in each bin
+  std::uint32_t settle = 0;          ///< number of acquisitions dropped at the frame's start
+  /// If set, errors are relative to the target's position at the estimator's own instant.
+  const OwnInstants* instants = nullptr;
 };
 
 /// Look-up tables of the read-outs and the references.
 std::vector<RangeConverter> fit_hostile_tables(const HostileSettings& settings, double klux);
 
-/// Mean events of each bin that surroundings alone send back to a pixel in an acquisition
-/// (frame/empty_frame.hpp).
+/// Mean events per bin and acquisition that the surroundings alone return to a pixel (frame/empty_frame.hpp).
 std::vector<double> mean_returns(const std::vector<ColumnStream>& empty, const SensorModel& sensor);
 
-/// How far a target goes away in a frame, in m.
+/// Distance that a target recedes during a frame, m.
 double travel_of_a_frame(const SensorModel& sensor);
 
-/// Each estimator's counts of `maps`, by seed.
+/// Counts of each estimator for `maps`, by seed.
 HostileReadouts measure_hostile(const HostileSettings& settings, const Estimators& estimators,
                                 const SensorModel& sensor, double klux, const std::vector<TargetMap>& maps,
                                 std::uint64_t first_seed);

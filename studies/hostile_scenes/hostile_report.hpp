@@ -10,23 +10,23 @@
 
 namespace dtof {
 
-/// Conditions, as "late-laser (14, 50 klux)", under which an estimator has more than twice the coarse
-/// histogram's errors above 3 %, beyond both intervals; empty without a coarse histogram. With `told` both
-/// are told what they can be told.
+/// Conditions, e.g. "late-laser (14, 50 klux)", in which an estimator has more than twice the coarse
+/// histogram's share of errors above 3 %, beyond both intervals. Empty without a coarse histogram. `told`:
+/// both with the additional knowledge of HostileScenes::told.
 std::vector<std::string> behind_coarse_histogram(const HostileSettings& settings, const HostileScenes& study,
                                                  const std::string& estimator, bool told);
 
-/// Conditions under which every read-out has more than a tenth of its pixels above 10 %, with the best one's
-/// share.
+/// Conditions in which every read-out has more than a tenth of its errors above 10 %, with the share of the
+/// best read-out.
 std::vector<std::string> fooled_together(const HostileSettings& settings, const HostileScenes& study);
 
-/// Markdown, the answer first.
+/// Report in Markdown, conclusions first.
 std::string hostile_report(const HostileSettings& settings, const HostileScenes& study,
                            const std::string& command_line);
-/// Every estimator under every condition, with intervals.
+/// All estimators in all conditions, with intervals.
 Table hostile_csv(const HostileSettings& settings, const HostileScenes& study);
-/// Detected over false alarms in clear conditions at the brightest light, of every estimator whose confidence
-/// has more than one value.
+/// Share detected against false alarms, in clear conditions at the brightest light, for every estimator whose
+/// confidence has more than one value.
 std::vector<PlotSeries> hostile_curves(const HostileSettings& settings, const HostileScenes& study);
 
 }  // namespace dtof

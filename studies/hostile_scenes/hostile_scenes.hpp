@@ -20,41 +20,41 @@
 
 namespace dtof {
 
-/// No condition: the sensor as it is.
+/// Name of the sensor without a condition.
 inline constexpr std::string_view kClear = "clear";
 
 struct HostileSettings {
   SensorModel sensor;
   std::vector<ReadoutParameters> readouts;
-  std::vector<std::string> conditions;  ///< kClear, which must be one, and names of sensor/condition.hpp
+  std::vector<std::string> conditions;  ///< kClear (required) and names of sensor/condition.hpp
   std::vector<double> klux = {14.0, 50.0};
   std::vector<Scene> scenes = {Scene::kRoom, Scene::kPlanes, Scene::kPoles, Scene::kSky};
-  int rows = 64;               ///< judged of each scene
+  int rows = 64;               ///< judged rows of each scene
   int seeds = 4;               ///< at least 2
-  double false_alarms = 0.01;  ///< share of the pixels of a clear sky that the threshold lets pass
+  double false_alarms = 0.01;  ///< share of a clear sky's pixels that may pass the threshold
   std::uint64_t seed = 1;
   int threads = 0;
-  /// Folder of the cells that are done, one file each: what lies there is not measured again. It must belong
-  /// to this program and these settings.
+  /// Folder with a file for each measured cell. Cells found there are not measured again. The folder must
+  /// belong to this program and these settings.
   std::filesystem::path store;
 };
 
-/// What became of a pixel: error up to 3 %, up to 10 %, above, or no target to be right about.
+/// Result of a pixel: error up to 3 %, up to 10 %, above 10 %, or no target.
 enum class Outcome : std::size_t { kWithin3, kWithin10, kBeyond, kSky };
 
-/// Pixels of one seed's frames, all scenes together, by outcome and confidence.
+/// Pixel counts of one seed's frames, over all scenes, by outcome and confidence.
 struct HostileCounts {
   std::array<ConfidenceCounts, 4> by_confidence;
-  std::uint64_t near_target = 0;  ///< with a result at most 0.3 m from their target
-  std::int64_t error_um = 0;      ///< sum of these pixels' errors, above 0: too far
+  std::uint64_t near_target = 0;  ///< pixels whose result is within 0.3 m of their target
+  std::int64_t error_um = 0;      ///< sum of these pixels' errors; above 0: too far
 
   bool operator==(const HostileCounts&) const = default;
   void add(Outcome outcome, int confidence) {
     ++by_confidence.at(static_cast<std::size_t>(outcome))[confidence];
   }
-  /// Pixels of at least this confidence.
+  /// Pixels with this outcome and at least this confidence.
   [[nodiscard]] std::uint64_t count(Outcome outcome, int least_confidence = 0) const;
-  /// With a target.
+  /// Pixels with a target.
   [[nodiscard]] std::uint64_t targets() const;
 };
 
@@ -65,51 +65,54 @@ struct HostileCell {
   auto operator<=>(const HostileCell&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// Counts of each estimator, by its name, and seed.
+/// Counts by estimator name and seed.
 using HostileReadouts = std::map<std::string, std::vector<HostileCounts>>;
 
 struct HostileScenes {
   std::map<HostileCell, HostileReadouts> cells;
-  /// Estimators that have what a user sets who knows the sensor and what is around it. Cover glass and fog:
-  /// TEMPLATE registers of the pool read-outs, and what the references subtract from their scores. Skew: no
-  /// S1. A laser that is silent at first: SETTLE, and as many acquisitions less. Motion: all estimators,
-  /// judged by where the target is at their own instant.
+  /// Estimators with the knowledge of a user who knows the sensor and its surroundings:
+  ///  - cover glass and fog: TEMPLATE registers of the pool read-outs; the references subtract the returns
+  ///    from their scores;
+  ///  - skew: S1 off;
+  ///  - a laser that is silent at first: SETTLE, with as many acquisitions fewer;
+  ///  - motion: all estimators are judged by the target's position at their own instant.
   std::map<HostileCell, HostileReadouts> told;
-  /// Each estimator's, of the conditions in which targets move.
+  /// Instants of each estimator, for the conditions in which targets move.
   std::map<HostileCell, OwnInstants> instants;
-  std::map<std::string, int> thresholds;  ///< of confidence, of each estimator: one for all lights
+  /// Confidence thresholds of each estimator, the same for all light levels.
+  std::map<std::string, int> thresholds;
 };
 
-/// Names and titles of the estimators: the read-outs, and two references on full histograms that know the
-/// pulse, the background of each pixel and the signal of a target at 3 m: the matched filter of the single
-/// pixel and the one pooled along the column. Their confidence is eight times their score.
+/// Names and titles of the estimators: the read-outs and two references on full histograms. The references
+/// are the matched filter of single pixels and the one pooled along the column. They know the pulse, each
+/// pixel's background and the signal of a target at 3 m. Their confidence is eight times their score.
 std::vector<std::string> hostile_estimators(const HostileSettings& settings);
 std::string hostile_title(const std::string& estimator);
-/// Those of the tables of what is told: the coarse histogram, pool read-outs, references.
+/// Estimators in the tables with additional knowledge: coarse histogram, pool read-outs, references.
 std::vector<std::string> told_estimators(const HostileSettings& settings);
-/// Conditions of the settings of which something can be told.
+/// Conditions of the settings for which additional knowledge exists.
 std::vector<std::string> told_conditions(const HostileSettings& settings);
 /// Acquisitions at the frame's start in which the laser is silent.
 std::uint32_t silent_acquisitions(const SensorModel& sensor);
-/// Targets move under the condition.
+/// True if targets move in this condition.
 bool moves(const HostileSettings& settings, const std::string& condition);
 
-/// The lowest confidence that at most `share` of the pixels of each light's seeds have or exceed; the pixels
-/// are those without a target.
+/// Lowest confidence that at most `share` of the pixels reach, at each light level. `skies` holds the counts
+/// of pixels without target, by light level and seed.
 int least_confidence(const std::vector<std::vector<HostileCounts>>& skies, double share);
 
-/// Measures every condition at every light. Each estimator has a look-up table for each light, of the sensor
-/// in clear conditions (frame/flat_calibration.hpp), and its threshold from frames of sky alone. Throws
+/// Measures every condition at every light level. Each estimator has a look-up table per light level, fitted
+/// in clear conditions (frame/flat_calibration.hpp). Its threshold comes from frames of sky alone. Throws
 /// InputError for settings out of range.
 HostileScenes run_hostile_scenes(const HostileSettings& settings);
 
-/// Share of the pixels with a target that are further off than this many per cent, 3 or 10.
+/// Share of the pixels with a target whose error exceeds this many per cent, 3 or 10.
 Estimate share_above(const std::vector<HostileCounts>& seeds, int percent);
-/// Mean error of the pixels near their target, in m; 0 if there are none.
+/// Mean error of the pixels near their target, m; 0 without such pixels.
 double mean_error(const std::vector<HostileCounts>& seeds);
-/// Share of the pixels with a target that pass the threshold and are within 3 %.
+/// Share of the pixels with a target that pass the threshold with an error of at most 3 %.
 Estimate share_detected(const std::vector<HostileCounts>& seeds, int threshold);
-/// Share of the pixels without a target that pass it; none without such pixels.
+/// Share of the pixels without a target that pass the threshold; none without such pixels.
 std::optional<Estimate> share_of_false_alarms(const std::vector<HostileCounts>& seeds, int threshold);
 
 }  // namespace dtof

@@ -13,25 +13,25 @@ namespace dtof {
 
 inline constexpr double kMiddleOfAFrame = 0.5;
 
-/// The instant of the frame, 0 at its start and 1 at its end, at which a target is where an estimator says
-/// that it is, by the target's distance at the frame's middle.
+/// Own instants of estimators: the moment of the frame (0 start, 1 end) at which a moving target is at the
+/// distance that the estimator reports. Depends on the target's distance at the frame's middle.
 struct OwnInstants {
-  std::vector<double> distances_m;  ///< rising
-  /// Each estimator's, by its name; none where it does not find the target.
+  std::vector<double> distances_m;  ///< ascending
+  /// Instants by estimator name, one per distance; none where the estimator misses the target.
   std::map<std::string, std::vector<std::optional<double>>> instants;
 
-  /// Between two distances in proportion, beyond them that of the nearest one with an instant; the frame's
-  /// middle for an estimator without any.
+  /// Instant at a distance: linear between two distances, else that of the nearest distance with an instant;
+  /// 0.5 for an estimator without instants.
   [[nodiscard]] double at(const std::string& name, double distance_m) const;
 };
 
-/// From the mean errors of walls that go away and of the same walls that come nearer, against where they are
-/// at the frame's middle. What both have alike, e.g. by pile-up, is no matter of time. `travel_m`: how far a
-/// wall moves in a frame.
+/// Own instant, from the mean errors for a receding and for an approaching wall, both relative to the wall's
+/// position at the frame's middle. An error common to both, e.g. by pile-up, cancels. `travel_m`: movement of
+/// the wall in a frame.
 double own_instant(double error_away_m, double error_nearer_m, double travel_m);
 
-/// The middle of the part of the frame whose timestamps make the position, as integer behaviour says; none
-/// for a read-out that takes the position from a part that the target's distance picks (PiFH).
+/// Middle of the part of the frame from which the read-out takes its position, by its definition. None if
+/// that part depends on the target's distance (PiFH).
 std::optional<double> middle_of_position(const ReadoutParameters& readout);
 
 }  // namespace dtof

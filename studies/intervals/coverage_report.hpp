@@ -8,14 +8,14 @@
 
 namespace dtof {
 
-/// The study in Markdown. Every sentence that states a result is computed from `study`.
+/// Report in Markdown. Every sentence with a result is computed from `study`.
 std::string coverage_report(const CoverageSettings& settings, const CoverageStudy& study,
                             const std::string& command_line);
 
-/// Every cell of the study.
+/// All cells of the study.
 Table coverage_csv(const CoverageStudy& study);
 
-/// Cells and stopping rules that fail.
+/// Number of cells and stopping rules that fail.
 std::size_t coverage_failures(const CoverageStudy& study);
 
 }  // namespace dtof

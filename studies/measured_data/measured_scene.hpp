@@ -13,40 +13,43 @@
 
 namespace dtof {
 
-/// A recording with a known distance for its pixels, from which frames are drawn.
+/// A recording with known distances of its pixels, from which frames are drawn.
 struct MeasuredScene {
   std::string title;
-  std::string description;  ///< sentences for a report: what it is, where the truth is from
+  std::string description;  ///< sentences for a report: contents, and origin of the true distances
   int columns = 0;
   int rows = 0;
-  /// m, index = row * columns + column; 0: unknown, not judged.
+  /// True distance in m, index = row * columns + column; 0: unknown, not judged.
   std::vector<double> true_m;
-  /// Where a pixel sees a second surface: its distance, else `true_m`. Empty: no scene of two surfaces.
+  /// Distance of a second surface, where the pixel sees one; else `true_m`. Empty: the scene has no second
+  /// surfaces.
   std::vector<double> other_m;
-  /// A frame of it.
+  /// Makes a frame of the scene.
   std::function<std::unique_ptr<StreamSource>(const Resampling&)> frame;
 };
 
-/// Log of an ams TMF8829 with the sensor's own distances as truth. The published log holds the histograms of
-/// the sensor's row 0 only, so a frame of the log becomes a column, and the zones of that row its pixels:
-/// neighbours in the column are neighbours in the scene. Throws InputError for an unreadable log.
+/// Log of an ams TMF8829; the distances that the sensor reported count as true. The published log holds
+/// histograms of the sensor's row 0 only. Therefore each frame of the log becomes a column, with the zones of
+/// that row as its pixels; neighbours in a column are neighbours in the scene. Throws InputError for an
+/// unreadable log.
 MeasuredScene tmf8829_scene(const std::filesystem::path& path);
 
-/// Photon times of a scene of two surfaces. Times are tick * `tick_s` + `shift_s`; distances are c/2 of them.
+/// Photon times of a scene with two surfaces. Time = tick * `tick_s` + `shift_s`; distance = c/2 time.
 struct TwoSurfaces {
   PhotonTimes photons;
-  MatMatrix first;   ///< ticks of the nearer surface, as estimated from all photons
-  MatMatrix second;  ///< of the farther one
+  MatMatrix first;   ///< ticks of the nearer surface, estimated from all photons
+  MatMatrix second;  ///< ticks of the farther surface
   double tick_s = 8e-12;
   double shift_s = 0.0;
-  double from_tick = 0.0;  ///< above 0: earlier photons are left out, and there is no other surface
+  double from_tick = 0.0;  ///< above 0: earlier photons are left out, and the scene has one surface
 };
 
-/// The truth is the surface that more of the pixel's photons come from, those within `kSurfaceTicks` of it.
-/// Pixels without such photons or distance are unknown. Throws InputError if sizes disagree.
+/// Scene from photon times. A pixel's true distance is that of the surface with more photons within
+/// `kSurfaceTicks`. Pixels without such photons or distances are unknown. Throws InputError if sizes
+/// disagree.
 MeasuredScene two_surfaces_scene(TwoSurfaces recording);
 
-/// About four standard deviations of the recorded pulse.
+/// About four standard deviations of the recorded pulse, in ticks.
 inline constexpr double kSurfaceTicks = 150.0;
 
 }  // namespace dtof

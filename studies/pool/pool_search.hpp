@@ -12,7 +12,8 @@
 
 namespace dtof {
 
-/// A frame that designs of poolPointer are tried on: one engine's columns of a scene at one light.
+/// A frame on which designs of poolPointer are compared: the columns of one engine, one scene, one light
+/// level.
 struct TrainingFrame {
   std::string scene;
   double klux = 0.0;
@@ -20,27 +21,28 @@ struct TrainingFrame {
   PoolFrame photons;
 };
 
-/// Draws the engine's columns in the middle of each scene. Scenes must have at least that many columns.
+/// Draws the engine's columns from the middle of each scene. Scenes must have at least that many columns.
 std::vector<TrainingFrame> draw_training_frames(const SensorModel& sensor,
                                                 const std::vector<StudyScene>& scenes,
                                                 const std::vector<double>& klux, std::uint64_t seed,
                                                 int columns, int threads);
 
-/// What a design made of the frames. Each is a geometric mean over frames of a share in per cent, to which
-/// kLeastShare is added so that a frame without errors does not decide alone.
+/// Errors of a design. Each figure is a geometric mean over frames of a share in per cent. kLeastShare is
+/// added to each share, so that frames without errors do not dominate.
 struct DesignScore {
   double above_3_percent = 0.0;         ///< without S1
   double smooth_above_3_percent = 0.0;  ///< with S1
   double above_10_percent = 0.0;
   double edges_above_3_percent = 0.0;  ///< with S1
-  std::vector<double> by_light;  ///< objective() of each light alone, in the order of the frames' lights
+  /// Values of objective() for each light level alone, in the order of the frames' light levels.
+  std::vector<double> by_light;
 
-  /// The figure that a search lowers: the geometric mean of the four.
+  /// Figure that a search minimises: the geometric mean of the four figures.
   [[nodiscard]] double objective() const;
 };
 inline constexpr double kLeastShare = 0.05;  // per cent
 
-/// Distances are those of Eq. 3.11.
+/// Scores a design on frames; distances follow Eq. 3.11.
 DesignScore score_design(const SensorModel& sensor, const std::vector<TrainingFrame>& frames,
                          const PoolNumbers& design, int threads);
 

@@ -15,16 +15,16 @@
 
 namespace dtof {
 
-/// poolPointer with some numbers changed, written NAME=NUMBER,...: "LEAK_SHIFT=2,SMOOTH_DARK=768"; nothing
-/// changed if `text` is empty. Throws InputError for an unknown name or an illegal value.
+/// Parses a design of poolPointer with changed numbers, NAME=NUMBER,...: "LEAK_SHIFT=2,SMOOTH_DARK=768". An
+/// empty `text` changes nothing. Throws InputError for an unknown name or an illegal value.
 PoolNumbers parse_pool_design(const std::string& text);
-/// The names that parse_pool_design knows.
+/// Names that parse_pool_design accepts.
 std::vector<std::string> pool_design_names();
-/// A number of a design by its name, and the design with another number; not validated.
+/// Number of a design by its name; next, the design with another number, not validated.
 int pool_design_number(const PoolNumbers& design, const std::string& name);
 PoolNumbers with_pool_design_number(PoolNumbers design, const std::string& name, int number);
 
-/// Events of a whole map's columns, engine by engine, from left to right.
+/// Events of all columns of a map, by engine from left to right.
 struct PoolFrame {
   std::uint32_t acquisitions = 0;
   std::vector<std::vector<PoolColumn>> engines;
@@ -32,17 +32,18 @@ struct PoolFrame {
 PoolFrame draw_pool_frame(const SensorModel& sensor, const TargetMap& targets, double klux,
                           std::uint64_t seed, std::uint32_t frame, int engine_columns, int threads);
 
-/// Reads whole maps out with designs of poolPointer, each with and without S1, and with the matched filters
-/// of SceneStudy, the single pixel's also with S1. All see the same photons.
+/// Reads out whole maps with designs of poolPointer, each with and without S1, and with the matched filters
+/// of SceneStudy; single-pixel matched filter also with S1. All see the same photons.
 class PoolStudy {
  public:
-  /// All designs have the same engine_columns. `references`: also those that are no design.
+  /// All designs must have the same engine_columns. `references`: include the matched filters.
   PoolStudy(SensorModel sensor, double klux, std::span<const std::string> designs, bool references,
             std::uint64_t seed, int threads, TableRule table);
 
-  /// The matched filters, then each design without and with S1.
+  /// Titles: the matched filters, then each design without and with S1.
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
-  /// One measurement an estimator; the scene's map is read whole. Throws InputError if the scene wants less.
+  /// One measurement per estimator, of the scene's whole map. Throws InputError if the scene asks for fewer
+  /// columns.
   [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene) const;
 
  private:
@@ -57,7 +58,7 @@ class PoolStudy {
   std::uint64_t seed_;
   int threads_;
   DepthScale scale_;
-  std::vector<RangeConverter> converters_;  // of each estimator; empty without look-up tables
+  std::vector<RangeConverter> converters_;  // for each estimator; empty without look-up tables
 };
 
 }  // namespace dtof

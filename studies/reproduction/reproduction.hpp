@@ -15,24 +15,24 @@
 namespace dtof {
 
 struct ReproductionSettings {
-  int frames = 1000;  ///< per point, as in the thesis; ten times as many decide what they leave open
+  int frames = 1000;  ///< per point, as in the thesis; open statements get ten times as many
   std::uint64_t seed = 1;
   int threads = 0;
 };
 
-/// Figures that were measured with one thing changed.
+/// Figures that were measured with one change.
 template <typename Measured>
 struct Changed {
   std::string name;
   Measured measured;
 };
 
-/// Everything that `dtof-study reproduce` measures; the report is rendered from this alone.
+/// All measurements of `dtof-study reproduce`. The report is rendered from this alone.
 struct Reproduction {
   ReproductionSettings settings;
   SensorModel sensor;
   ThesisStudies studies;
-  std::optional<ThesisStudies> more_frames;  ///< ten times as many, where a statement was open
+  std::optional<ThesisStudies> more_frames;  ///< ten times as many frames; set if a statement was open
 
   HistogramPeaks whole_frame;  ///< 14 klux, 1 m
   HistogramPeaks half_frame;
@@ -44,14 +44,15 @@ struct Reproduction {
   PileUp pile_up_far;         ///< 0.5 m
   SideShares sides;
   FineHistogram fine;
-  std::vector<FilteredCounts> filters;         ///< 14 klux, 1 m; by GUARD, the thesis's last
-  std::vector<Changed<AccuracyStudy>> guards;  ///< hisPointer with these, 14 klux
+  std::vector<FilteredCounts> filters;         ///< 14 klux, 1 m; by GUARD, the last is the thesis's
+  std::vector<Changed<AccuracyStudy>> guards;  ///< hisPointer with each GUARD, 14 klux
 
-  /// 50 klux, 3 m, without the table; the first changes nothing.
+  /// 50 klux, 3 m, without the table; the first has no change.
   std::vector<Changed<AccuracyStudy>> methods;
   int method_frames = 0;
   std::vector<Changed<ThesisStudies>> assumptions;  ///< the first is the preset
-  std::vector<Changed<AccuracyStudy>> steps;        ///< ezPointer near, 14 klux; the first is the thesis's
+  /// ezPointer at near targets, 14 klux; the first is the thesis's.
+  std::vector<Changed<AccuracyStudy>> steps;
   struct Rates {
     double signal = 0.0;      ///< events at 1 m
     double background = 0.0;  ///< events at 14 klux
@@ -71,19 +72,19 @@ struct Reproduction {
   std::vector<Changed<AccuracyStudy>> small_arrays;  ///< 50 klux
 };
 
-/// A statement of the thesis with what was found.
+/// A statement of the thesis and the judgement on it.
 struct JudgedStatement {
   std::string place;
   std::string text;
   std::string rule;
   Judgement judgement;
 };
-/// By the frames of `studies`, or by ten times as many where these leave it open.
+/// Judges by the frames of `studies`, or by ten times as many if these leave the statement open.
 Judgement judge(const Reproduction& reproduction, const ThesisStatement& statement);
-/// Those of the thesis, with its figures and improvement methods.
+/// Judgements on the thesis's statements, on its figures and on its improvement methods.
 std::vector<JudgedStatement> judged_statements(const Reproduction& reproduction);
 
-/// Minutes.
+/// Measures everything; takes minutes.
 Reproduction measure_reproduction(const ReproductionSettings& settings);
 
 }  // namespace dtof

@@ -10,20 +10,20 @@
 namespace dtof {
 
 struct ReproductionPicture {
-  std::string name;  ///< of its file
+  std::string name;  ///< name of the picture's file
   std::vector<PlotSeries> series;
   PlotLayout layout;
 };
 
 struct ReproductionReport {
   std::string front_page;  ///< statements and verdicts
-  std::string sections;    ///< Markdown; pictures are looked for in the folder `reproduction`
+  std::string sections;    ///< Markdown; pictures are in the folder `reproduction`
   std::string statements_csv;
   std::string accuracy_csv;
   std::vector<ReproductionPicture> pictures;
 };
 
-/// Every sentence that states a result is computed from `reproduction`.
+/// Renders the report. Every sentence with a result is computed from `reproduction`.
 ReproductionReport render_reproduction(const Reproduction& reproduction);
 
 }  // namespace dtof

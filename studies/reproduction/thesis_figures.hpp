@@ -12,7 +12,7 @@
 
 namespace dtof {
 
-/// Where many frames are simulated of one pixel, and how.
+/// Settings for many simulated frames of one pixel.
 struct FigureScene {
   SensorModel sensor;
   double klux = 0.0;
@@ -22,27 +22,27 @@ struct FigureScene {
   int threads = 0;  ///< 0 = all processors
 };
 
-/// Middle 95 % and median of a figure over frames.
+/// Median and central 95 % of a figure over frames.
 struct Spread {
   double low = 0.0;
   double median = 0.0;
   double high = 0.0;
 };
 
-/// Full histograms of single frames, built from the acquisitions before `acquisitions`
-/// (Fig. 3.5, 3.13, 3.15).
+/// Statistics of full histograms of single frames, from the acquisitions before `acquisitions` (Fig. 3.5,
+/// 3.13, 3.15).
 struct HistogramPeaks {
-  Spread count;                   ///< in the highest bin
-  Spread bin;                     ///< its number as the thesis counts: bin k holds (k - 1, k], so code + 1
-  Estimate fake_share;            ///< frames whose peak is more than 10 % of the distance off, by Eq. 3.11
+  Spread count;         ///< count of the highest bin
+  Spread bin;           ///< its number as in the thesis: bin k holds (k - 1, k], so code + 1
+  Estimate fake_share;  ///< share of frames whose peak is more than 10 % of the distance off, by Eq. 3.11
   std::vector<double> one_frame;  ///< histogram of the first frame
 };
 HistogramPeaks histogram_peaks(const FigureScene& scene, std::uint32_t acquisitions);
 
-/// What the TDC delivers against what arrives (Fig. 2.4).
+/// Events that arrive compared with those that the TDC delivers (Fig. 2.4).
 struct PileUp {
   std::vector<double> arriving;   ///< mean events per frame and bin, without pile-up
-  std::vector<double> delivered;  ///< the same after the TDC
+  std::vector<double> delivered;  ///< mean events per frame and bin after the TDC
   double arriving_fwhm_ns = 0.0;
   double delivered_fwhm_ns = 0.0;
 
@@ -50,42 +50,42 @@ struct PileUp {
 };
 PileUp pile_up(const FigureScene& scene);
 
-/// A histogram turned on its circle, so that the highest bin (the first of several) has as many bins on both
-/// sides (Fig. 3.6). The highest bin is then number size / 2.
+/// Histogram rotated on its circle so that the highest bin (the first on a tie) has the same number of bins
+/// on both sides (Fig. 3.6). Its index is then size / 2.
 std::vector<double> turned_to_peak(const std::vector<double>& histogram);
 
-/// Share of a frame's counts that lie above its highest bin, that bin left out; mean over frames.
+/// Share of a frame's counts above the highest bin, which is not counted; mean over frames.
 struct SideShares {
   Estimate as_counted;
   Estimate turned;                ///< after turned_to_peak
-  std::vector<double> one_frame;  ///< turned histogram of the first frame
+  std::vector<double> one_frame;  ///< rotated histogram of the first frame
 };
 SideShares side_shares(const FigureScene& scene);
 
-/// SiFH's second histogram (Fig. 3.9): window of Eq. 2.4 and 2.5 around the first half's coarse peak, filled
-/// by the second half.
+/// SiFH's second histogram (Fig. 3.9): the window of Eq. 2.4 and 2.5 around the coarse peak of the first
+/// half, filled from the second half.
 struct FineHistogram {
-  Spread bin;                     ///< number of its highest bin in the full range, as the thesis counts
+  Spread bin;                     ///< number of its highest bin in the full range, as in the thesis
   double first_bin = 0.0;         ///< number of one_frame's first bin
-  std::vector<double> one_frame;  ///< of the first frame
+  std::vector<double> one_frame;  ///< histogram of the first frame
 };
 FineHistogram fine_histogram(const FigureScene& scene);
 
-/// What hisPointer's filter with this GUARD leaves of the second half (Fig. 3.11).
+/// Timestamps of the second half that pass hisPointer's filter with this GUARD (Fig. 3.11).
 struct FilteredCounts {
   int guard = 0;
   Spread kept;                    ///< share of the timestamps within 46 bins of the pulse's centre that pass
-  std::vector<double> remaining;  ///< mean counts a frame and bin
+  std::vector<double> remaining;  ///< mean counts per frame and bin
 };
 FilteredCounts filtered_counts(const FigureScene& scene, int guard);
 
-/// Full width at half maximum of a curve, in bins: the outermost crossings of half the maximum, interpolated.
-/// Throws std::logic_error unless the curve crosses on both sides of its maximum.
+/// Full width at half maximum of a curve, in bins: distance of the outermost crossings of half the maximum,
+/// interpolated. Throws std::logic_error unless the curve crosses on both sides of its maximum.
 double full_width_at_half_maximum(std::span<const double> curve);
 
-/// Fig. 3.5: 17 counts in bin 195.
+/// Fig. 3.5: the peak has 17 counts in bin 195.
 Judgement judge_peak(const HistogramPeaks& peaks, double count, double bin);
-/// Fig. 3.6: turned, both sides of the peak have half of the counts each, within 2 %.
+/// Fig. 3.6: after rotation, both sides of the peak have half of the counts each, within 2 %.
 Judgement judge_sides(const SideShares& shares);
 /// Fig. 3.9: the peak is in this bin.
 Judgement judge_fine_peak(const FineHistogram& fine, double bin);
@@ -94,7 +94,7 @@ Judgement judge_filters(const FilteredCounts& narrow, const FilteredCounts& wide
                         const Estimate& wide_rmse);
 /// Fig. 3.15: the highest bin misses the target more often far away than near.
 Judgement judge_far_peak(const HistogramPeaks& far, const HistogramPeaks& near);
-/// Fig. 2.4: fewer counts and a narrower pulse, the more so at the nearer target.
+/// Fig. 2.4: fewer counts and a narrower pulse, more so at the nearer target.
 Judgement judge_pile_up(const PileUp& near, const PileUp& far);
 
 }  // namespace dtof

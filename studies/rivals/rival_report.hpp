@@ -17,47 +17,47 @@
 
 namespace dtof {
 
-/// What is compared: a read-out of the project, a rival, or a reference that no chip could hold.
+/// A compared read-out: of the project, a rival, or a reference that no chip could hold.
 struct ComparedRow {
   enum class Kind { kReadout, kRival, kReference };
 
   std::string title;
   Kind kind = Kind::kReadout;
-  std::optional<double> bits;  ///< of memory a pixel, if known
+  std::optional<double> bits;  ///< memory bits per pixel, if known
 };
 
-/// What is counted of a scene.
+/// A compared figure: a count of pixels in a scene.
 struct ComparedFigure {
   const char* name;
-  const char* column;  ///< of the CSV file
+  const char* column;  ///< column of the CSV file
   ErrorShares SceneScore::*pixels;
   double ErrorShares::*share;
 };
-/// Above 3 % and above 10 % of all pixels, of those at depth edges and of the others; of dim surfaces above
-/// 3 %; of single pixels above 10 %.
+/// The figures: share of errors above 3 % and above 10 %, each of all pixels, at depth edges and elsewhere;
+/// above 3 % on dim surfaces; above 10 % on single pixels.
 const std::vector<ComparedFigure>& compared_figures();
 
-/// Scores of one light level: scene, row, seed.
+/// Scores of one light level, by scene, row and seed.
 class ComparedScores {
  public:
   ComparedScores(std::vector<std::string> scenes, std::vector<ComparedRow> rows);
 
-  /// Scores come seed by seed, all scenes and rows of one before the next.
+  /// Adds a score. Scores come seed by seed, with all scenes and rows of one seed before the next.
   void add(std::size_t scene, std::size_t row, const SceneScore& score);
   [[nodiscard]] const std::vector<std::string>& scenes() const { return scenes_; }
   [[nodiscard]] const std::vector<ComparedRow>& rows() const { return rows_; }
-  /// The row of this title, if there is one.
+  /// Row with this title, if it exists.
   [[nodiscard]] std::optional<std::size_t> row(const std::string& title) const;
-  /// The scene of this name, if there is one.
+  /// Scene with this name, if it exists.
   [[nodiscard]] std::optional<std::size_t> scene(const std::string& name) const;
-  /// All scenes but the flats.
+  /// All scenes except the flat ones.
   [[nodiscard]] std::vector<std::size_t> scenes_with_depth() const;
 
-  /// Pixels of the scenes together, over all seeds.
+  /// Number of pixels of these scenes, over all seeds.
   [[nodiscard]] std::uint64_t pixels(const std::vector<std::size_t>& scenes,
                                      const ComparedFigure& figure) const;
-  /// Share of the scenes' pixels together: mean over the seeds, with the interval by their spread, but at
-  /// least Wilson's for independent pixels. 0 with no width if there are no pixels.
+  /// Share of the pixels of these scenes: mean over the seeds. The interval follows from their spread, and is
+  /// at least Wilson's for independent pixels. 0 with width 0 without pixels.
   [[nodiscard]] Estimate estimate(const std::vector<std::size_t>& scenes, std::size_t row,
                                   const ComparedFigure& figure) const;
 
@@ -67,46 +67,48 @@ class ComparedScores {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<SceneScore>> scores_;
 };
 
-/// Rows, but the references, that no other has fewer errors than with as few bits: indices by rising bits.
-/// Rows without bits are left out.
+/// Rows on the front of accuracy against memory, without references: no other row has fewer errors with as
+/// few bits. Returns indices by rising bits. Rows with unknown bits are left out.
 std::vector<std::size_t> accuracy_front(const ComparedScores& scores, const std::vector<std::size_t>& scenes,
                                         const ComparedFigure& figure);
 
-/// Titles of the rivals that are on the front of some light, on the scenes with depth by pixels above 3 %.
+/// Titles of the rivals on the front of some light level, by errors above 3 % on the scenes with depth.
 std::vector<std::string> rivals_on_a_front(const std::map<double, ComparedScores>& lights);
 
-/// Tables of a light: the scenes with depth together, and scene by scene (above 3 % / above 10 %).
+/// Tables of a light level: all scenes with depth together; and (next function) scene by scene, errors above
+/// 3 % / above 10 %.
 Table overall_table(const ComparedScores& scores);
 Table scene_by_scene_table(const ComparedScores& scores);
-/// The front by pixels above 3 %, and whether each of its rows is a rival.
+/// The front by errors above 3 %, and for each row whether it is a rival.
 Table front_table(const ComparedScores& scores);
-/// The rows of a CSV file whose columns begin with klux; "all" are the scenes with depth together.
+/// Rows of a CSV file with klux in the first column; "all" stands for all scenes with depth together.
 Table compared_csv(const std::map<double, ComparedScores>& lights);
 
-/// Whether `rival` has fewer errors above 3 % than `other` on the scenes with depth, light by light, and
-/// their bits; empty if one of them is not among the rows.
+/// Sentence on whether `rival` has fewer errors above 3 % than `other` on the scenes with depth, by light
+/// level, and on their bits. Empty if one of them is missing.
 std::string comparison_sentence(const std::map<double, ComparedScores>& lights, const std::string& rival,
                                 const std::string& other);
 
-/// Numbers of a wall's pixels by their relative error.
+/// Numbers of a wall's pixels, by relative error.
 struct WallCounts {
   std::uint64_t pixels = 0;
   std::uint64_t above_3_percent = 0;
   std::uint64_t above_10_percent = 0;
 };
-/// Adds a wall's distances as the claims count them: what their median is off is taken from all of them.
+/// Adds a wall's distances as in the claims: the bias of their median is subtracted from all of them.
 void add_unbiased(WallCounts& counts, double wall_m, std::span<const double> measured_m);
 
-/// A claim beside what was measured of it.
+/// A claim and the measured figure.
 struct CheckedClaim {
   std::string title;
   RivalClaim claim;
   WallCounts at_3_m;
   WallCounts at_4_m;
 };
-/// With Wilson's intervals; whether they overlap with those of the claim's kClaimedPixels.
+/// Table of the claims with Wilson's intervals, and whether they overlap with those of the claim's
+/// kClaimedPixels.
 Table claim_table(std::span<const CheckedClaim> claims);
-/// How many of the claimed shares are within both intervals, and which are not.
+/// Sentence with the number of claimed shares that lie within both intervals, and the claims that do not.
 std::string claim_sentence(std::span<const CheckedClaim> claims);
 
 }  // namespace dtof

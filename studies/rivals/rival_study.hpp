@@ -16,25 +16,26 @@
 
 namespace dtof {
 
-/// Reads scenes out with rivals (rival/rival.hpp). The photons of a scene are those that SceneStudy and
-/// PoolStudy draw of it with the same sensor, light and seed; a rival that needs several frames has others
-/// before them. Each rival has a look-up table of its own by FlatCalibration, unless TableRule::kNone.
+/// Reads out scenes with rivals (studies/rivals/models/rival.hpp). The photons of a scene equal those of
+/// SceneStudy and PoolStudy with the same sensor, light and seed; a rival that needs several frames gets
+/// others before them. Each rival has its own look-up table by FlatCalibration, unless the rule is
+/// TableRule::kNone.
 ///
-/// With `pooled` each rival has a second row, "..., pooled": the host helps its pixels along the column, by
-/// the chain of the pooled matched filter (readout/pooled_matched_filter.hpp) on the rival's evidence, or by
-/// the median of five rows where the rival has none. Its table is the one of the pixels alone for the chain,
-/// which keeps each pixel's own place, and for the median.
+/// With `pooled` each rival has a second row, "..., pooled", in which the host combines pixels along the
+/// column. A rival with evidence gets the chain of the pooled matched filter
+/// (readout/pooled_matched_filter.hpp); others get the median of five rows. Both use the look-up table of the
+/// rival's single pixels.
 class RivalStudy {
  public:
   RivalStudy(SensorModel sensor, double klux, std::span<const RivalEntry> rivals, bool pooled,
              std::uint64_t seed, int threads, TableRule table = TableRule::kFlat);
 
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
-  /// The rival of an estimator.
+  /// Rival of an estimator.
   [[nodiscard]] const Rival& rival(std::size_t estimator) const {
     return *rivals_[pooled_ ? estimator / 2 : estimator];
   }
-  /// One measurement an estimator.
+  /// One measurement per estimator.
   [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene) const;
 
  private:
@@ -49,14 +50,14 @@ class RivalStudy {
   std::uint64_t seed_;
   int threads_;
   DepthScale scale_;
-  std::vector<RangeConverter> converters_;  // of each rival; empty without look-up tables
+  std::vector<RangeConverter> converters_;  // for each rival; empty without look-up tables
 };
 
-/// What pooling adds to Rival::host_operations().
+/// Operations that pooling adds to Rival::host_operations().
 int pooling_operations(const Rival& rival);
 
-/// The middle of each value and its `reach` neighbours on either side, fewer at the ends; the upper one of
-/// two.
+/// For each value, the median of it and its `reach` neighbours on either side (fewer at the ends); the upper
+/// of two middle values.
 std::vector<double> running_median(std::span<const double> values, std::size_t reach);
 
 }  // namespace dtof

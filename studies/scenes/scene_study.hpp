@@ -17,21 +17,21 @@
 
 namespace dtof {
 
-/// A scene of the study and how much of it is read out.
+/// A scene of the study and the number of its columns that are read.
 struct StudyScene {
   std::string name;
   TargetMap targets;
-  int columns;  ///< read out, evenly spread over the map
+  int columns;  ///< columns to read, evenly spread over the map
   std::vector<bool> guessed =
-      {};  ///< [row][column]: distance that the map did not know, not judged; empty: none
+      {};  ///< [row][column]: true if the map has no distance, not judged; empty: all are known
 };
 
-/// Column of the map that is the `index`-th read.
+/// Map column of the `index`-th column read.
 int picked_column(const StudyScene& scene, int index);
 
-/// What one estimator made of a scene.
+/// Results of one estimator for a scene.
 struct SceneMeasurement {
-  std::vector<double> distance_m;  ///< index = row * columns + column read
+  std::vector<double> distance_m;  ///< [row * columns + column] over the columns read
   std::vector<double> confidence;
 };
 
@@ -39,57 +39,60 @@ struct SceneScore {
   ErrorShares all;
   ErrorShares edges;  ///< pixels with a neighbour whose distance differs by more than 10 %
   ErrorShares rest;
-  ErrorShares dims;     ///< pixels of at most a quarter of the scene's largest reflectivity
-  ErrorShares singles;  ///< pixels whose distance differs by more than 10 % from that of all neighbours
-  std::vector<double> removed;  ///< share of the outliers (above 10 %) among the pixels dropped; see kDropped
+  ErrorShares dims;     ///< pixels with at most a quarter of the scene's largest reflectivity
+  ErrorShares singles;  ///< pixels whose distance differs by more than 10 % from that of every neighbour
+  /// Share of the outliers (errors above 10 %) among the pixels dropped; see kDropped.
+  std::vector<double> removed;
 };
 
-/// Shares of pixels, of lowest confidence, dropped for the confidence curve.
+/// Shares of pixels that are dropped for the confidence curve, lowest confidence first.
 inline constexpr std::array kDropped = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5};
 
-/// Truth of the pixels read, in the order of SceneMeasurement.
+/// True distances and kinds of the pixels read, in the order of SceneMeasurement.
 struct SceneTruth {
   int columns = 0;
   int rows = 0;
   std::vector<double> distance_m;  ///< 0: no target, not judged
-  std::vector<bool> edge;          ///< differs by more than 10 % from a neighbour (left, right, above, below)
-  std::vector<bool> single;        ///< from every one of them
-  std::vector<bool> dim = {};      ///< at most a quarter of the scene's largest reflectivity; empty: unknown
+  std::vector<bool> edge;      ///< differs by more than 10 % from some neighbour (left, right, above, below)
+  std::vector<bool> single;    ///< differs by more than 10 % from every neighbour
+  std::vector<bool> dim = {};  ///< at most a quarter of the scene's largest reflectivity; empty: unknown
 };
 SceneTruth scene_truth(const StudyScene& scene);
 
 SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurement);
 
-/// Precision beside the bound of a single pixel: the median of |error| / bound over a normal variable's, so 1
-/// for an unbiased read-out that reaches each pixel's bound, and deaf to outliers. `relative_bound`: of each
-/// pixel, relative to its distance; pixels without a finite one above 0 are left out. NaN if none is left, or
-/// there are no bounds.
+/// Precision relative to the bound of a single pixel: the median of |error| / bound divided by that of a
+/// normal variable. 1 for an unbiased read-out that reaches every pixel's bound; insensitive to outliers.
+/// `relative_bound`: bound of each pixel, relative to its distance; pixels without a finite bound above 0 are
+/// left out. NaN without pixels or bounds.
 double median_error_over_bound(const SceneTruth& truth, std::span<const double> relative_bound,
                                const SceneMeasurement& measurement);
 
-/// Reads scenes out with the models of several read-outs and, unless `references` is false, hisPointer with
-/// paired coarse bins and two references on full histograms that know each pixel's signal and background: the
-/// matched filter of the single pixel, and the pooled one (readout/pooled_matched_filter.hpp). All see the
-/// same photons; poolPointer also those of the other columns of its engines. With TableRule::kFlat each has
-/// a look-up table by FlatCalibration, else distances are those of Eq. 3.11.
+/// Reads out scenes with the models of several read-outs. Unless `references` is false, it also reads
+/// hisPointer with paired coarse bins and two references on full histograms. The references know each pixel's
+/// signal and background: the matched filter of the single pixel, and the pooled one
+/// (readout/pooled_matched_filter.hpp). All see the same photons; poolPointer also those of the other columns
+/// of its engines. With TableRule::kFlat each has a look-up table by FlatCalibration, else distances follow
+/// Eq. 3.11.
 class SceneStudy {
  public:
   SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts, std::uint64_t seed,
              int threads, TableRule table = TableRule::kFlat, bool references = true);
 
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
-  /// One measurement an estimator. `n`: the n-th frame of the scene, with photons of its own.
+  /// One measurement per estimator, of the n-th frame of the scene. Each frame has its own photons.
   [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene, std::uint32_t n = 0) const;
-  /// Cramer-Rao bound of each pixel on its own over its distance, in the order of SceneMeasurement; 0 where
-  /// there is no target.
+  /// Cramer-Rao bound of each single pixel divided by its distance, in the order of SceneMeasurement; 0
+  /// without a target.
   [[nodiscard]] std::vector<double> relative_bounds(const StudyScene& scene) const;
 
  private:
   using Positions = std::vector<std::vector<Measurement>>;  // estimator, row * columns + column
   [[nodiscard]] bool hears_other_columns(std::size_t estimator) const;
-  /// All but the read-outs whose columns hear each other.
+  /// Reads with all estimators except read-outs whose columns depend on each other.
   [[nodiscard]] Positions read(const SensorModel& sensor, const StudyScene& scene, std::uint32_t frame) const;
-  /// Those, which read whole engines of the scene, however few columns are asked for.
+  /// Reads with the read-outs whose columns depend on each other. Processes whole engines of the scene,
+  /// however few columns are asked for.
   void read_engines(const StudyScene& scene, std::uint32_t frame, Positions& positions) const;
   [[nodiscard]] double distance(std::size_t estimator, double position) const;
 
@@ -101,7 +104,7 @@ class SceneStudy {
   int threads_;
   bool references_;
   DepthScale scale_;
-  std::vector<RangeConverter> converters_;  // of each estimator; empty without look-up tables
+  std::vector<RangeConverter> converters_;  // for each estimator; empty without look-up tables
 };
 
 }  // namespace dtof

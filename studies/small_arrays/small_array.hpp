@@ -17,31 +17,32 @@
 
 namespace dtof {
 
-/// A small array's sensor: the large one's laser power on fewer spots, so that a pixel's signal grows as
-/// their number falls; its background stays.
+/// Sensor of a small array: the large one's laser power on fewer spots. A pixel's signal grows inversely with
+/// their number; its background is unchanged.
 SensorModel sharing_the_laser(const SensorModel& sensor, const SpotGrid& grid);
 
-/// Throws InputError unless `name` is a read-out or a rival (rival/rival.hpp) that needs one frame.
+/// Throws InputError unless `name` is a read-out, or a rival (studies/rivals/models/rival.hpp) with one frame
+/// per result.
 void check_small_readout(const std::string& name, const SensorModel& sensor);
 
-/// An array that shares the laser of a large one among fewer pixels (study/array_size.hpp) and looks at the
-/// spots of a grid, read out in several ways. All see the same photons, those of FastPhotonSource where it
-/// models the sensor: a small array's pixels have too many events for the exact model's speed. Each read-out
-/// has a look-up table of its own (FlatCalibration), made with the small array's light.
+/// A small array at the spots of a grid, which shares the laser of a large array among fewer pixels, read out
+/// in several ways. All read-outs see the same photons. They come from FastPhotonSource if it supports the
+/// sensor, since a small array's pixels have too many events for the exact model's speed. Each read-out has
+/// its own look-up table (FlatCalibration) with the small array's light.
 class SmallArray {
  public:
-  /// `sensor` is the large array's. Throws InputError for names that check_small_readout does not take.
+  /// `sensor` is the large array's. Throws InputError for names that check_small_readout refuses.
   SmallArray(const SensorModel& sensor, SpotGrid grid, double klux, std::span<const std::string> readouts,
              std::uint64_t calibration_seed, int threads);
 
   /// Titles, in the order of `readouts`.
   [[nodiscard]] const std::vector<std::string>& titles() const { return titles_; }
   [[nodiscard]] const SpotGrid& grid() const { return grid_; }
-  /// One map a read-out, of what the large array's pixels look at.
+  /// One map per read-out, for `targets` of the large array's pixels.
   [[nodiscard]] std::vector<SmallMap> measure(const TargetMap& targets, std::uint64_t seed) const;
 
  private:
-  /// One of the two is set.
+  /// A read-out or a rival; exactly one of both is set.
   struct Reader {
     std::vector<ReadoutParameters> readout;
     std::unique_ptr<Rival> rival;
@@ -54,7 +55,7 @@ class SmallArray {
   int threads_;
   std::vector<std::string> titles_;
   std::vector<Reader> readers_;
-  std::vector<RangeConverter> tables_;  // of each reader
+  std::vector<RangeConverter> tables_;  // for each reader
 };
 
 }  // namespace dtof

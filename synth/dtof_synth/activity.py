@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Power from activity: a small array's netlist simulated on a scene, every transition of every net counted.
+"""Power from activity: a small array's netlist is simulated on a scene, and every transition of every net is counted.
 
-Icarus Verilog simulates the netlist beside its RTL (simulation.py, so it is the RTL's netlist) and writes the changes of
-all nets between cells. A transition of a net costs half of C V^2 (pins and wire load behind it) and the internal
-energy of the cell that drives it, both of the Liberty; glitches do not count, because the models have no delay. The
-clock is charged apart: what the tree feeds in every clock (scene_power.py), what is behind a clock gate in those clocks that
-the gate lets through. An SRAM is charged per access.
+Icarus Verilog simulates the netlist beside its RTL, compares both (simulation.py), and writes the changes of all nets
+between cells. A transition of a net costs half of C V^2 (pins and wire load behind it) and the internal energy of the driving cell, both
+from the Liberty. Glitches do not occur, because the models have no delay. The clock is charged separately: the tree's loads in every clock
+(scene_power.py), loads behind a clock gate in the clocks that the gate passes. An SRAM is charged per access.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ STREAMING, OTHER = "streaming", "other"
 
 
 def name_for_counting(design: dict) -> None:
-    """Names that the simulator writes as they are: a net by its number, a module or macro by its place."""
+    """Gives nets and cells names that the simulator writes unchanged: a net its number, a module or macro its position."""
     own = [name for name, module in netlist.modules(design).items() if module["cells"]]
     for name in own:
         module = netlist.modules(design)[name]
@@ -52,14 +51,14 @@ class Scope:
 
 @dataclass
 class Activity:
-    """What a simulation counted. `clocks` by phase."""
+    """Result of a simulation. `clocks`: clocks by phase."""
 
     scopes: dict[str, Scope]
     clocks: dict[str, int]
 
 
 def scopes_of(design: dict) -> dict[str, str]:
-    """Path of every module instance below the top, as the waveform has it, to its module; the top is ""."""
+    """Module of every instance below the top, by the instance's path in the waveform; the top's path is ""."""
     found = {"": next(name for name, module in netlist.modules(design).items()
                       if module is netlist.top(design))}
 
@@ -75,7 +74,7 @@ def scopes_of(design: dict) -> dict[str, str]:
 
 
 class _Counter:
-    """Reads a VCD of the listed scopes; the clock's rising edge ends a clock, whose phase stood before it."""
+    """Counts transitions in a VCD of the listed scopes. A rising edge of the clock ends a clock; its phase was known before the edge."""
 
     def __init__(self, design: dict, root: str, is_streaming: Callable[[dict[str, int]], bool]):
         self.design, self.root, self.is_streaming = design, root, is_streaming
@@ -127,7 +126,7 @@ class _Counter:
         return bit if isinstance(bit, str) else self.bit_code[(id(scope), bit)](self.values)
 
     def index_bits(self) -> None:
-        """How to look up a bit that a macro's enable is connected to."""
+        """Builds an index of the bits to which the macros' enables are connected."""
         wanted = {(id(scope), bit) for scope, _, cell in self.macros for pin in ("en_i", "we_i", "re_i")
                   for bit in cell["connections"].get(pin, []) if isinstance(bit, int)}
         self.bit_code = {}
@@ -152,7 +151,7 @@ class _Counter:
                 counts[(instance, kind)] = counts.get((instance, kind), 0) + 1
 
     def ports(self) -> dict[str, int]:
-        """Ports of the top that are known, as numbers."""
+        """Known ports of the top, as numbers."""
         found = {}
         for name, (code, _) in self.port_codes.items():
             text = self.values.get(code, "x")
@@ -163,8 +162,8 @@ class _Counter:
 
 def count(lines: Iterable[str], design: dict, root: str,
           is_streaming: Callable[[dict[str, int]], bool]) -> Activity:
-    """Transitions in a VCD. `root`: path of the netlist's instance; `is_streaming` is asked with the top's ports
-    before every rising edge of clk_i."""
+    """Counts the transitions in a VCD. `root`: path of the netlist's instance. `is_streaming` is called with the top's ports before every
+    rising edge of clk_i."""
     counter = _Counter(design, root, is_streaming)
     widths: dict[str, int] = {}
     path: list[str] = []
@@ -208,7 +207,7 @@ def count(lines: Iterable[str], design: dict, root: str,
 
 
 def internal_energies(library: Group, unit_ff: float) -> dict[tuple[str, str], float]:
-    """fJ of a transition of an output pin: mean over its inputs, and over rise and fall, in the middle of the table."""
+    """Energy of one transition of each output pin, fJ: mean over its inputs and over rise and fall, in the middle of the table."""
     found = {}
     for cell in library.children("cell"):
         for pin in cell.children("pin"):
@@ -225,7 +224,7 @@ def internal_energies(library: Group, unit_ff: float) -> dict[tuple[str, str], f
 
 @dataclass
 class Energy:
-    """fJ of one scope in one phase."""
+    """Energy of one scope in one phase, fJ."""
 
     nets: float = 0.0
     cells: float = 0.0

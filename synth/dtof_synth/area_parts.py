@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the area of an array is made of, and what its macros and cells take once they are placed.
+"""Parts of an array's area, and the area of its macros and cells after placement.
 
 reports/area.md's total is the sum of cells and macros. A placed array is larger: rows are not filled, a macro keeps
 its neighbours at a distance, and flip-flops in a scan chain are larger.
@@ -22,7 +22,7 @@ OTHER_MUX = 2
 
 @dataclass(frozen=True)
 class Parts:
-    """um2 of the whole array; the fields sum to the total."""
+    """Areas of the whole array's parts in um2; their sum is the total."""
 
     column_logic: float
     column_sram: float
@@ -45,7 +45,7 @@ def parts(result: Result) -> Parts:
 
 
 def _macros(result: Result) -> Iterable[tuple[int, Size]]:
-    """(number in the array, size) of each kind of macro."""
+    """(number in the array, size) for each kind of macro."""
     configuration = result.configuration
     for size in memories(configuration).values():
         yield configuration.column_modules, size
@@ -66,23 +66,23 @@ def flip_flops(result: Result) -> int:
 
 
 def scan(result: Result) -> float:
-    """um2 by which a multiplexer in front of every flip-flop makes the array larger."""
+    """Additional area in um2 if every flip-flop has a multiplexer in front of it."""
     return flip_flops(result) * result.mux2_area
 
 
 def placed(result: Result) -> float:
-    """um2 of cells at UTILISATION and macros with their halos; without scan and clock tree."""
+    """Area in um2 of cells at UTILISATION and macros with halos, without scan and clock tree."""
     cells = result.column.area * result.columns + result.shared.area
     return cells / UTILISATION + _macro_total(result, _with_halo)
 
 
 def placed_with_all(result: Result) -> float:
-    """The same with scan and the estimated clock tree."""
+    """Area in um2 as in `placed`, with scan and the estimated clock tree."""
     return placed(result) + (scan(result) + result.clock_tree.area) / UTILISATION
 
 
 def doubtful_macros(results: Iterable[Result]) -> list[Size]:
-    """Sizes whose array has no column multiplexer or whose words are wider than the points of the fits."""
+    """Sizes of macros without a column multiplexer, or with words wider than the points of the fits."""
     sizes = {size for result in results for _, size in _macros(result)}
     return sorted(size for size in sizes if sram_model.macro(size).mux == 1 or size.bits > wide_words.FITTED_BITS)
 
@@ -92,7 +92,7 @@ def lacks_mux(result: Result) -> bool:
 
 
 def total_with_other_mux(result: Result) -> float:
-    """um2 of the array if macros without a column multiplexer had one of OTHER_MUX."""
+    """Area of the array in um2 if macros without a column multiplexer had one of OTHER_MUX."""
     def area(macro: Macro) -> float:
         return sram_model.macro(macro.size, OTHER_MUX).area if macro.mux == 1 else macro.area
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs many configurations on all cores; results are kept until an input changes."""
+"""Runs many configurations on all cores; results are reused until an input changes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .run import BOTH_CORNERS, Result, Technology, input_digest, run
 
 @dataclass(frozen=True)
 class Job:
-    """`most_attempts` 1: the first mapping stands, whether timing closes or not. `naming`: run.map_to_cells."""
+    """A configuration to run. With `most_attempts` 1 the first mapping counts, even if timing fails. `naming`: see run.map_to_cells."""
 
     configuration: Configuration
     corners: tuple[str, ...] = BOTH_CORNERS
@@ -51,8 +51,7 @@ def _kept(folder: Path, key: str) -> Result | None:
 
 def run_all(jobs: Iterable[Job], technology: Technology, build: Path, workers: int,
             progress: Callable[[str], None]) -> dict[str, Result]:
-    """Results by the jobs' names, in the order of the jobs; the longest, with engines, run first. The first failure stops
-    everything."""
+    """Results by the jobs' names, in the order of the jobs. The longest jobs (with engines) start first. The first failure stops all."""
     digest = input_digest(technology)
     jobs = list(jobs)
     results: dict[str, Result] = {}

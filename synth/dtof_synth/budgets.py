@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Committed area and timing budgets: what moved against them, and the proposal of new ones."""
+"""Committed budgets of area and timing: changes against them, and proposals of new ones."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def figures(result: Result) -> Budget:
 
 
 def read(path: Path) -> dict[str, Budget]:
-    """Budgets by configuration; none if there is no file."""
+    """Budgets by configuration; empty if the file is missing."""
     if not path.exists():
         return {}
     try:
@@ -44,7 +44,7 @@ def write(path: Path, results: dict[str, Result]) -> None:
 
 
 def moved(budgets: dict[str, Budget], results: dict[str, Result]) -> list[str]:
-    """One line for each figure that is off by more than the tolerance, to either side, and for each name that only one list has."""
+    """One line for each figure that differs from its budget by more than the tolerance, and for each name that only one list has."""
     lines = []
     for name, result in results.items():
         if name not in budgets:

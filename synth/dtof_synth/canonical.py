@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An elaborated netlist whose names say nothing of the source, so that the same logic is synthesised in the same way.
+"""Elaborated netlists without names from the source, so that equal logic is always synthesised in the same way.
 
-Yosys makes private names of file names, lines and a running number; what its passes and ABC do depends on names and on their
-order, so that a comment in one file would change the area of every read-out by some per cent. So private names become numbers,
-and what only tells where something came from is dropped.
+Yosys derives private names from file names, lines and a running number. Its passes and ABC depend on names and their order, so a comment in
+one file would change the area of every read-out by some per cent. Therefore private names become numbers, and attributes that only tell the
+origin are dropped.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _RUNNING_NUMBER = re.compile(r"^autoidx \d+$", re.MULTILINE)
 
 @dataclass(frozen=True)
 class _Block:
-    """A statement of a module with the attributes before it; `name` of a wire or a cell, else empty."""
+    """A statement of a module with the attributes before it. `name`: of a wire or a cell, else empty."""
 
     kind: str  # wire, cell, parameter or connect
     name: str
@@ -46,13 +46,13 @@ def _blocks(lines: list[str]) -> list[_Block]:
 
 
 def _running_order(block: _Block) -> list[tuple[int, int, str]]:
-    """By text and, in it, by number: names that Yosys made come in the order in which it made them."""
+    """Sort key by text and by the numbers in it, so that names from Yosys keep the order in which Yosys made them."""
     parts = re.split(r"(\d+)", _LINE_OF_SOURCE.sub(r"\1", block.name))
     return [(1, int(part), "") if part.isdigit() else (0, 0, part) for part in parts]
 
 
 def _module(lines: list[str]) -> list[str]:
-    """Cells have the order of their names, wires that in which cells name them."""
+    """Sorts a module: cells by name, wires in the order in which cells name them."""
     blocks = _blocks(lines)
     of_kind = {kind: [block for block in blocks if block.kind == kind] for kind in ("parameter", "wire", "cell", "connect")}
     cells = sorted(of_kind["cell"], key=_running_order)
@@ -68,8 +68,8 @@ def _module(lines: list[str]) -> list[str]:
 
 
 def canonical(text: str, root: Path) -> str:
-    """The netlist (RTLIL) without traces of the source, which is below `root`, but for one: names of variables in functions keep
-    the line of the call."""
+    """The netlist (RTLIL) without traces of the source, which is below `root`. One trace remains: names of variables in functions keep the
+    line of the call."""
     lines = [line for line in text.replace(str(root), "").splitlines() if not _ORIGIN.match(line)]
     written: list[str] = []
     index = 0

@@ -20,8 +20,8 @@ _UNSUPPORTED = ("latch", "latch_bank", "ff_bank", "statetable", "bus", "bundle")
 
 
 def expression(function: str, where: str) -> str:
-    """A Liberty function in Verilog, bracketed throughout: in Liberty XOR binds tighter than AND, a quote inverts
-    what stands before it, and a blank is an AND."""
+    """A Liberty function in Verilog, with all brackets. In Liberty XOR binds tighter than AND, a quote inverts the operand before it, and a
+    blank is an AND."""
     tokens = _TOKEN.findall(function)
     if "".join(tokens) != re.sub(r"\s", "", function):
         raise FlowError(f"{where}: cannot read the function '{function}'")
@@ -84,7 +84,7 @@ def expression(function: str, where: str) -> str:
 
 
 def _edge(function: str, where: str) -> str:
-    """The event of a clock, clear or preset, which is a pin or an inverted pin."""
+    """Verilog event of a clock, clear or preset, which is a pin or an inverted pin."""
     found = re.fullmatch(r"\(~(\w+)\)|(\w+)", expression(function, where))
     if not found:
         raise FlowError(f"{where}: '{function}' is neither a pin nor an inverted pin")
@@ -92,7 +92,7 @@ def _edge(function: str, where: str) -> str:
 
 
 def _register(state: Group, where: str) -> list[str]:
-    """A Liberty ff group: state and inverted state, asynchronous clear and preset."""
+    """Verilog of a Liberty ff group: state and inverted state, asynchronous clear and preset."""
     name, inverse = state.args
     clock, clear, preset = (state.get(key) for key in ("clocked_on", "clear", "preset"))
     both = {state.get(key) for key in ("clear_preset_var1", "clear_preset_var2") if state.get(key)}
@@ -115,7 +115,8 @@ def _register(state: Group, where: str) -> list[str]:
 
 
 def _clock_gate(cell: Group, where: str) -> str:
-    """A latch that is open while the clock is low, and an AND. The Liberty gives them no function, but pins with roles."""
+    """Verilog of a clock gate: a latch that is open while the clock is low, and an AND. Liberty describes such a cell by the roles of its
+    pins, without a function."""
     pins = {}
     for role in ("clock", "enable", "out"):
         found = [pin.name for pin in cell.children("pin") if pin.get(f"clock_gate_{role}_pin").strip('"') == "true"]
@@ -129,7 +130,7 @@ def _clock_gate(cell: Group, where: str) -> str:
 
 
 def model(cell: Group) -> str:
-    """Verilog of one cell; FlowError for a cell that has no function or a state that is not modelled."""
+    """Verilog of one cell. FlowError for a cell without a function, or with a state that is not modelled."""
     where = f"cell {cell.name}"
     if cell.get("clock_gating_integrated_cell").strip('"') == "latch_posedge":
         return _clock_gate(cell, where)
@@ -151,7 +152,7 @@ def model(cell: Group) -> str:
 
 
 def verilog(library: Group, kinds: Iterable[str]) -> str:
-    """Models of these cells; FlowError if the library lacks one."""
+    """Models of these cells. FlowError if the library lacks one."""
     cells = {cell.name: cell for cell in library.children("cell")}
     wanted = sorted(kinds)
     missing = [kind for kind in wanted if kind not in cells]

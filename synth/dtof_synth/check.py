@@ -21,7 +21,7 @@ IHP_MHZ = 100.0  # its SRAMs alone take 5 ns from clock to data in the slow corn
 
 @dataclass(frozen=True)
 class Other:
-    """Another library: files, whether it is near enough in technology to be held against the limits."""
+    """Another library: its files, and whether its technology is close enough for the limits to apply."""
 
     title: str
     typical: Path
@@ -41,7 +41,7 @@ def _logic_mm2(result: Result) -> float:
 
 
 def _line(ours: Result, other: Result) -> tuple[str, bool, bool]:
-    """(one row, whether its area is within the limit, whether its slack is)."""
+    """(table row, whether the area is within its limit, whether the slack is)."""
     ratio = _logic_mm2(ours) / _logic_mm2(other)
     difference = ours.timing["slow"].slack - other.timing["slow"].slack
     return (f"{ours.configuration.title:<16}{other.column.area:>10.0f}{ratio:>9.2f}"
@@ -51,7 +51,7 @@ def _line(ours: Result, other: Result) -> tuple[str, bool, bool]:
 
 def _open_process(root: Path, pdk: Path, chosen: list[Configuration], everything: list[Configuration], workers: int,
                   say: Callable[[str], None]) -> None:
-    """The read-outs whose memories IHP's compiled macros hold, in that process alone: cells, macros, clock."""
+    """Compares the read-outs whose memories IHP's compiled macros can hold, entirely in that process: cells, macros, clock."""
     typical, slow = ihp130.cells(pdk)
     if not typical.exists():
         say(f"IHP 130 nm: {typical} is not here, skipped")
@@ -87,8 +87,8 @@ def _open_process(root: Path, pdk: Path, chosen: list[Configuration], everything
 
 def run(root: Path, pdk: Path, named: dict[str, Configuration], everything: list[Configuration], workers: int,
         say: Callable[[str], None]) -> int:
-    """Prints the comparison. A row outside the limits is marked and explained; it is no failure, since a library of
-    another maker may differ: 0 unless a step of the flow fails."""
+    """Prints the comparison. Rows outside the limits are marked and explained, but are no failure, since other libraries may differ.
+    Returns 0 unless a step of the flow fails."""
     chosen = [item for item in named.values() if not item.variant_of]
     build = root / "build" / "synth"
     ours = batch.run_all([batch.Job(item) for item in chosen],

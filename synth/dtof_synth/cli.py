@@ -33,7 +33,7 @@ def _say(text: str) -> None:
 
 
 def all_configurations(named: dict[str, Configuration]) -> list[Configuration]:
-    """Named configurations and everything that is derived from them, for the list of SRAM sizes."""
+    """Named configurations and all derived ones, for the list of SRAM sizes."""
     return [*named.values(), *(point for _, _, point in growth.sweep(named)),
             *signalled_clear.configurations(named)]
 
@@ -46,7 +46,7 @@ def _select(named: dict[str, Configuration], names: list[str]) -> dict[str, Conf
 
 
 def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """Named configurations; with the generated library and no selection also reports and budgets."""
+    """Runs named configurations. With the generated library and without a selection it also writes reports and checks budgets."""
     started = time.monotonic()
     chosen = _select(named, arguments.configuration)
     foreign = arguments.liberty is not None
@@ -108,8 +108,8 @@ def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration
 
 def _gate(arguments: argparse.Namespace, main: dict[str, Result], found: list[goals.Goal],
           committed: dict[str, budgets.Budget], everything: bool) -> int:
-    """Says which goals and slacks fail and what moved against the budgets; 1 if that is an error. `everything`: no goal and no
-    configuration is left out."""
+    """Prints failed goals and slacks, and changes against the budgets; returns 1 if they are an error. `everything`: all goals and
+    configurations are included."""
     missed, failed = gates.judge([*found, *gates.slacks(main)], gates.read(ROOT / gates.FILE), everything)
     moved = budgets.moved(committed, main)
     for line in [*missed, *(f"budget: {line}" for line in moved)]:
@@ -127,7 +127,7 @@ def _sizes(_: argparse.Namespace, named: dict[str, Configuration]) -> int:
 
 
 def _growth(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """Cost over NP, NB, pixels per SRAM and SRAM_NUM."""
+    """Area over NP, NB, pixels per SRAM and SRAM_NUM."""
     started = time.monotonic()
     build = ROOT / "build" / "synth"
     technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
@@ -142,7 +142,7 @@ def _growth(arguments: argparse.Namespace, named: dict[str, Configuration]) -> i
 
 
 def _budgets(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """Writes the figures of the last state as the new budgets."""
+    """Writes the figures of the last run as new budgets."""
     build = ROOT / "build" / "synth"
     technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
     results = batch.run_all([batch.Job(item) for item in named.values()], technology, build / "runs",
@@ -155,7 +155,7 @@ def _budgets(arguments: argparse.Namespace, named: dict[str, Configuration]) -> 
 
 
 def _flat(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """The slack with every column real beside that with stand-ins."""
+    """Slack with every column real, and with stand-ins."""
     chosen = _select(named, arguments.configuration or list(FLAT))
     build = ROOT / "build" / "synth"
     technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
@@ -171,7 +171,7 @@ def _flat(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int
 
 
 def _namings(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """Area and slack over several namings; 1 if a read-out does not close with every one."""
+    """Area and slack over several namings; 1 if some read-out does not close with all of them."""
     chosen = list(_select(named, arguments.configuration or [name for name, item in named.items() if not item.variant_of]).values())
     digest = report_inputs.begin("namings")
     build = ROOT / "build" / "synth"
@@ -204,7 +204,7 @@ def _versions(arguments: argparse.Namespace, named: dict[str, Configuration]) ->
 
 
 def _corners(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """The slack for each reading of the slow corner."""
+    """Slack for each reading of the slow corner."""
     chosen = _select(named, arguments.configuration or list(FLAT))
     build = ROOT / "build" / "synth"
     technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
@@ -253,7 +253,7 @@ def _part_costs(arguments: argparse.Namespace, named: dict[str, Configuration]) 
 
 
 def _estimate(arguments: argparse.Namespace, _: dict[str, Configuration]) -> int:
-    """The models of `dtof design`, from the figures of make synth, make power and the points of their own."""
+    """Fits the models of `dtof design` to figures of make synth, of make power and of their own points."""
     if arguments.points:
         estimate_points.run(ROOT, arguments.seed, arguments.jobs, _say)
     found = estimate.write(ROOT)
@@ -282,32 +282,32 @@ def _simulate_full(technology: Technology, case: simulation.Case) -> simulation.
 
 
 def _prepared(arguments: argparse.Namespace) -> Technology:
-    """The libraries of a netlist simulation; its SRAM sizes are its own."""
+    """Libraries for a netlist simulation, which has SRAM sizes of its own."""
     folder = SIMULATION / (arguments.liberty.name if arguments.liberty else "generic40")
     return technologies.prepare(ROOT, folder, [], arguments.liberty, arguments.liberty_slow)
 
 
 def _sim_icarus(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """RTL of small arrays against the model."""
+    """Simulates the RTL of small arrays and compares it with the model."""
     return _simulate(arguments, list(_select(named, arguments.configuration).values()),
                      lambda *case: [simulation.rtl_case(*case)], _simulate_rtl)
 
 
 def _sim_netlist(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """Netlists of small arrays against their RTL and the model."""
+    """Simulates netlists of small arrays and compares them with RTL and model."""
     return _simulate(arguments, list(_select(named, arguments.configuration).values()), simulation.netlist_cases,
                      functools.partial(_simulate_netlist, _prepared(arguments)))
 
 
 def _sim_netlist_full(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """Netlists of arrays in their full width against the model."""
+    """Simulates netlists of full-width arrays and compares them with the model."""
     chosen = list(_select(named, arguments.configuration or list(simulation.FULL_WIDTH)).values())
     return _simulate(arguments, chosen, lambda item, seed, _: [simulation.full_case(item, seed)],
                      functools.partial(_simulate_full, _prepared(arguments)))
 
 
 def _simulate(arguments: argparse.Namespace, chosen: list[Configuration], make_cases, work) -> int:
-    """The cases of some configurations, those that take longest first."""
+    """Simulates the cases of some configurations; the longest start first."""
     started = time.monotonic()
     if arguments.trace and len(arguments.configuration) != 1:
         raise FlowError("--trace needs the name of one configuration")

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Clock gates for registers that load under one enable, put in between technology-independent synthesis and mapping.
+"""Clock gates for registers with a common enable, inserted between technology-independent synthesis and mapping.
 
-The RTL has enables and no gates: simulation, proofs and FPGAs see plain registers. Where the library has an integrated
-clock gate, registers of a column, a pair or an engine that share an enable lose their multiplexers and get a gated
-clock instead, as a synthesis tool for silicon does it. The array's own registers stay as they are: the fan-out trees
-copy some of them, and the floorplan would have to place their gates.
+The RTL has enables and no gates, so simulation, proofs and FPGAs use plain registers. If the library has an integrated clock gate,
+registers of a column, a pair or an engine that share an enable get a gated clock instead of multiplexers, as a synthesis tool for silicon
+does it. The array's own registers stay unchanged: the fan-out trees copy some of them, and the floorplan would have to place their gates.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ _ENABLED = re.compile(r"^\$_(DFFE|SDFFCE)_P([NP][01])?([NP])_$")
 
 @dataclass
 class _Register:
-    """A register of one bit: where its lines are, what it becomes, and its pins."""
+    """A register of one bit: the lines of its text, its replacement, and its pins."""
 
     first: int
     last: int
@@ -65,13 +64,13 @@ def _inverter(number: int, signal: str) -> list[str]:
 
 
 def _clusters(registers: list[_Register], most: int) -> list[list[_Register]]:
-    """As few as hold at most `most` each, evenly filled, in the order of the netlist."""
+    """Divides registers into the fewest groups of at most `most`, of nearly equal sizes, in the order of the netlist."""
     number = -(-len(registers) // most)
     return [registers[index * len(registers) // number:(index + 1) * len(registers) // number] for index in range(number)]
 
 
 def gated(text: str, library: Library) -> tuple[str, int]:
-    """The netlist (RTLIL) with gates, and how many they are."""
+    """The netlist (RTLIL) with clock gates, and their number."""
     lines = text.splitlines()
     gate = given(library.clock_gate, "the library has no clock gate")
     register_ff = max(library.clock_pin_ff[kind] for kind in library.sequential) + library.wire_ff_per_sink
@@ -116,7 +115,7 @@ def gated(text: str, library: Library) -> tuple[str, int]:
 
 
 def insert(netlist: Path, library: Library) -> int:
-    """Gates in an RTLIL file, if the library has a gate; how many."""
+    """Inserts clock gates into an RTLIL file if the library has a gate; returns their number."""
     if library.clock_gate is None:
         return 0
     text, number = gated(netlist.read_text(encoding="utf-8"), library)

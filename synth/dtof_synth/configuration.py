@@ -45,7 +45,7 @@ class Configuration:
 
     @property
     def module_columns(self) -> int:
-        """Columns of a column module: four of a pool read-out's share an SRAM, two where engines are as small."""
+        """Columns of a column module: 4 in pool read-outs (2 if an engine has only two columns), else 1."""
         return min(4 if self.engine_columns > 2 else 2, self["SRAM_NUM"]) if self.is_pool else 1
 
     @property
@@ -54,7 +54,7 @@ class Configuration:
 
     @property
     def engine_columns(self) -> int:
-        """Columns that share an engine; 0: there is none (all but the pool read-outs)."""
+        """Columns that share an engine; 0 without engines (all but the pool read-outs)."""
         return self["ENGINE_COLUMNS"] if self.is_pool else 0
 
     @property
@@ -74,7 +74,7 @@ class Configuration:
 
 
 def bin_width(configuration: Configuration) -> int:
-    """log2 of the bins the histogram SRAM holds for a pixel; only for read-outs that have one."""
+    """log2 of the bins per pixel in the histogram SRAM; only for read-outs with such an SRAM."""
     width = configuration.described.bin_width
     if width is None:
         raise FlowError(f"{configuration.name}: the read-out has no histogram")
@@ -82,7 +82,7 @@ def bin_width(configuration: Configuration) -> int:
 
 
 def memories(configuration: Configuration) -> dict[str, Size]:
-    """The SRAMs of one column module by what they hold. The RTL asks for the same sizes, or elaboration stops."""
+    """SRAMs of one column module by content. The RTL must ask for the same sizes, or elaboration stops."""
     if configuration.is_pool:
         groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
         words = groups * (configuration["GROUP_SIZE"] // 2) + -(-groups // 2)
@@ -94,7 +94,7 @@ def memories(configuration: Configuration) -> dict[str, Size]:
 
 
 def pool_word_width(configuration: Configuration) -> int:
-    """Two pixels or a group's word (dtof_pkg::pool_track_width, pool_point_width, pool_group_width)."""
+    """Bits of the SRAM word: two pixel words or a group word (dtof_pkg::pool_track_width, pool_point_width, pool_group_width)."""
     labels = configuration["LABELS"]
     label_width = max(1, (labels - 1).bit_length())
     track = labels * configuration["SCORE_BITS"]
@@ -124,7 +124,7 @@ def bits_per_pixel(configuration: Configuration) -> float:
 
 
 def load(path: Path) -> dict[str, Configuration]:
-    """All configurations in the order of the file; if it is `complete`, then those of the read-outs that it leaves out."""
+    """All configurations in the order of the file. If it is `complete`, default configurations of missing read-outs follow."""
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, tomllib.TOMLDecodeError) as error:

@@ -30,18 +30,18 @@ class Reading:
 
 
 def corner(gates: float) -> Corner:
-    """The slow corner with another ratio of the gates' delays; registers follow in proportion."""
+    """The slow corner with another ratio of gate delays; registers scale in proportion."""
     scale = gates / SLOW.gate
     return replace(SLOW, gate=gates, clock_to_q=SLOW.clock_to_q * scale, setup=SLOW.setup * scale, hold=SLOW.hold * scale)
 
 
 def macros(sizes: list[sram_model.Size], srams: float) -> list[sram_model.Macro]:
-    """Macros whose slow access takes so many times the typical one."""
+    """Macros whose slow access time is `srams` times the typical one."""
     return [replace(one, access_slow=one.access_typical * srams) for one in map(sram_model.macro, sizes)]
 
 
 def read(result: Result, prepared: Technology, folder: Path) -> list[Reading]:
-    """Times the netlist that run.run left in `folder` with each reading of the slow corner."""
+    """Slacks of the netlist that run.run left in `folder`, for each reading of the slow corner."""
     sizes = sram_kit.read_sizes(prepared.root / technology.SIZES)
     found = []
     for name, (gates, srams) in READINGS.items():

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ends of paths: that every one is timed, or why not.
+"""Checks that every end of a path is timed, or has a reason not to be.
 
-OpenSTA's check_setup lists the data pins that no path reaches, registers without a clock, ports without a budget and loops. What it
-lists must have one of three reasons, else the flow stops:
+OpenSTA's check_setup lists data pins that no path reaches, registers without a clock, ports without a budget, and loops. Each entry must
+have one of three reasons, else the flow stops:
 
-* side band: constraints/dtof.sdc takes the SRAMs' side band out of timing, for it rests while the array works;
-* constant: the pin hangs on a constant, so that no path ends there;
-* inside: the pin is a stand-in's, and its paths begin in the logic that the stand-in has not (stand_in.py). The same pin of a real
-  column has them.
+* side band: constraints/dtof.sdc excludes the SRAMs' side band from timing, since it is idle while the array works;
+* constant: the pin is connected to a constant, so that no path ends there;
+* inside: the pin is a stand-in's, and its paths begin in logic that the stand-in lacks (stand_in.py). The same pin of a real column has
+these paths.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ _MOST_NAMED = 5
 
 @dataclass(frozen=True)
 class Endpoints:
-    """How many data pins and output ports the timed netlist has, stand-ins' pins of internal paths apart, and how many of them
-    are timed; the others are constant or the side band."""
+    """Numbers of data pins and output ports in the timed netlist (without stand-ins' pins of internal paths), and of those that are timed.
+    The others are constant or belong to the side band."""
 
     all: int
     timed: int
@@ -37,7 +37,7 @@ class Endpoints:
 
 
 class _Constants:
-    """Which pins hang on constants alone."""
+    """Finds pins that are connected to constants only."""
 
     def __init__(self, design: dict, library: Library) -> None:
         self.design = design
@@ -53,7 +53,7 @@ class _Constants:
         return self.drivers[kind].get(bit)
 
     def has(self, name: str) -> bool:
-        """A pin or port named as OpenSTA does."""
+        """True if a pin or port, named as in OpenSTA, is constant."""
         array = netlist.top(self.design)
         if "/" not in name:
             port, index = found_in("OpenSTA", r"^(\w+)(?:\[(\d+)\])?$", name).groups()
@@ -67,7 +67,7 @@ class _Constants:
         return bool(bits) and self._net(block[0] if block else "", kind, bits[index])
 
     def _net(self, block: str, kind: str, bit: int | str) -> bool:
-        """A net of an instance of a module, or of the top."""
+        """True if a net of an instance of a module, or of the top, is constant."""
         if not isinstance(bit, int):
             return True
         driver = self._driver(kind, bit)
@@ -88,7 +88,7 @@ class _Constants:
 
 
 def count(design: dict, library: Library) -> int:
-    """Pins with a setup time of all instances, and output ports. Every input of a macro but its clock has one."""
+    """Number of pins with a setup time in all instances, and of output ports. Every input of a macro but its clock has a setup time."""
 
     def of(module: Module) -> int:
         number = 0
@@ -111,8 +111,8 @@ def count(design: dict, library: Library) -> int:
 
 
 def judge(name: str, unchecked: dict[str, list[str]], design: dict, library: Library, inside: Iterable[str]) -> Endpoints:
-    """Counts the ends of paths. `unchecked`: what check_setup warned of; `design`: as OpenSTA read it; `inside`: the stand-ins' pins
-    without paths. FlowError for what has no reason."""
+    """Counts the ends of paths. `unchecked`: warnings of check_setup; `design`: as OpenSTA read it; `inside`: the stand-ins' pins without
+    paths. FlowError for a warning without one of the reasons above."""
     inside, constants = set(inside), _Constants(design, library)
     counted = {"inside": 0, "constant": 0, "side band": 0}
     for warning, pins in unchecked.items():

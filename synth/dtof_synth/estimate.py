@@ -45,7 +45,7 @@ GOALS = {"area": 0.05, "power": 0.10}
 
 @dataclass(frozen=True)
 class Measured:
-    """Figures of the flow. Areas in um2; mW while acquisitions stream in, by light."""
+    """Figures of the flow. Areas in um2; power in mW while acquisitions stream in, by light level."""
 
     configuration: Configuration
     column: float
@@ -61,7 +61,7 @@ class Measured:
 
 
 def family(configuration: Configuration) -> str:
-    """The read-outs whose columns are alike: without a histogram, with one, poolPointer."""
+    """Family of read-outs with similar columns: without a histogram, with one, poolPointer."""
     return "pool" if configuration.is_pool else "histogram" if "histogram" in memories(configuration) else "pointer"
 
 
@@ -83,14 +83,14 @@ def _macro_leakage_mw(configuration: Configuration) -> float:
 
 
 def _access_pj(configuration: Configuration) -> float:
-    """A read and a write of each memory of a column."""
+    """Energy of a read and a write of each memory of a column, pJ."""
     return sum(sram_model.macro(size).read_energy + sram_model.macro(size).write_energy
                for size in memories(configuration).values()) / configuration.module_columns
 
 
 @dataclass(frozen=True)
 class Reference:
-    """Figures of a read-out's defaults, and what follows for others."""
+    """Figures of a read-out's default configuration, and derived figures."""
 
     configuration: Configuration
     column: float
@@ -151,7 +151,7 @@ class Model:
 
 
 def _solve(rows: list[list[float]], wanted: list[float]) -> list[float]:
-    """Least squares with a ridge, so that a parameter that no point changes costs nothing."""
+    """Least squares with a ridge, so that a parameter that is equal in all points gets coefficient 0."""
     matrix = np.array(rows).reshape(-1, len(FEATURES))
     square = matrix.T @ matrix
     return [float(value) for value in np.linalg.solve(square + RIDGE * np.eye(len(square)), matrix.T @ np.array(wanted))]
@@ -159,7 +159,7 @@ def _solve(rows: list[list[float]], wanted: list[float]) -> list[float]:
 
 @dataclass(frozen=True)
 class Step:
-    """What a column's logic grows by between two configurations, before hold buffers."""
+    """Difference of a column's logic between two configurations, before hold buffers."""
 
     configuration: Configuration
     base: Configuration
@@ -167,7 +167,7 @@ class Step:
 
 
 def fit(points: list[Measured], steps: list[Step]) -> Model:
-    """Held-out points are not looked at."""
+    """Fits the model; held-out points are not used."""
     used = [point for point in points if not point.held_out]
     bases = {point.configuration.readout: point for point in used if point.power and not point.configuration.variant_of
              and not point.configuration.note.startswith("fitted")}
@@ -212,7 +212,7 @@ def fit(points: list[Measured], steps: list[Step]) -> Model:
 
 
 def _data_exponent(used: list[Measured], references: dict[str, Reference]) -> float:
-    """The exponent of NP, by the data power of fitted points a column."""
+    """Exponent of NP in the data power of a column, from the fitted points."""
     pairs = []
     for point in used:
         base = references[point.configuration.readout]
@@ -225,7 +225,7 @@ def _data_exponent(used: list[Measured], references: dict[str, Reference]) -> fl
 
 @dataclass(frozen=True)
 class Error:
-    """An estimate beside what the flow measured."""
+    """An estimate and the figure that the flow measured."""
 
     name: str
     figure: str  # area, power, fmax
@@ -239,7 +239,7 @@ class Error:
 
 
 def _of(model: Model, point: Measured, kind: str) -> list[Error]:
-    """Power is fitted to no other array than the defaults: that of every point is held out."""
+    """Errors of a model for a point. Power is fitted to the defaults alone, so every other point is held out for it."""
     name = point.configuration.name
     found = [Error(name, "area", kind, point.total_mm2, model.total_mm2(point.configuration)),
              Error(name, "fmax", kind, point.fmax_mhz, model.fmax_mhz(point.configuration))]
@@ -248,7 +248,8 @@ def _of(model: Model, point: Measured, kind: str) -> list[Error]:
 
 
 def errors(points: list[Measured], steps: list[Step]) -> list[Error]:
-    """Held-out points by the model of the others; each point that is no read-out's defaults by a model without it."""
+    """Errors of all points. Held-out points are estimated by the model of the others; each fitted point that is no default by a model
+    without it."""
     model = fit(points, steps)
     found: list[Error] = []
     for point in points:
@@ -260,7 +261,7 @@ def errors(points: list[Measured], steps: list[Step]) -> list[Error]:
 
 
 def checked(found: list[Error]) -> list[Error]:
-    """FlowError if a figure would have no error because nothing is held out for it."""
+    """FlowError if a figure has no error because no point is held out for it."""
     for figure in ("area", "power", "fmax"):
         if not any(one.figure == figure and one.kind == HELD_OUT for one in found):
             raise FlowError(f"estimate: nothing is held out for the {figure}, so that its error is not known")
@@ -268,7 +269,7 @@ def checked(found: list[Error]) -> list[Error]:
 
 
 def worst(found: Iterable[Error], figure: str, kinds: tuple[str, ...] = (HELD_OUT,)) -> float:
-    """The largest relative error to either side."""
+    """Largest relative error in either direction."""
     return max((abs(one.relative) for one in found if one.figure == figure and one.kind in kinds), default=0.0)
 
 
@@ -293,7 +294,7 @@ def _parts(row: dict[str, str]) -> dict[str, float]:
 
 
 def read(root: Path) -> list[Measured]:
-    """The named configurations from the reports, and the points from their own file."""
+    """Figures of the named configurations from the reports, and of the points from their own file."""
     named = configurations.load(root / "configurations.toml")
     power: dict[str, dict[str, dict[str, float]]] = {}
     for row in _table(root, "reports/power.csv"):
@@ -314,7 +315,7 @@ def read(root: Path) -> list[Measured]:
 
 
 def read_steps(root: Path) -> list[Step]:
-    """NP and NB of the sweeps of make synth-growth."""
+    """Steps of NP and NB from make synth-growth."""
     named = configurations.load(root / "configurations.toml")
     rows = [row for row in _table(root, GROWTH) if row["parameter"] in ("NP", "NB")]
     column = {(row["readout"], row["parameter"], int(row["value"])): float(row["logic_column_um2"]) for row in rows}
@@ -335,7 +336,7 @@ def write_points(root: Path, points: list[Measured]) -> None:
 
 
 def digest(root: Path) -> str:
-    """The digest of the figures that the coefficients follow from."""
+    """Digest of the figures on which the coefficients depend."""
     text = hashlib.sha256()
     for name in SOURCES:
         text.update((root / name).read_bytes())
@@ -343,7 +344,7 @@ def digest(root: Path) -> str:
 
 
 def coefficients(root: Path, model: Model, found: list[Error]) -> str:
-    """TOML that the C++ program reads."""
+    """Coefficients as TOML for the C++ program."""
     lines = ["# SPDX-License-Identifier: Apache-2.0",
              "# Written by `synth/synth.py estimate` from synthesised configurations; the formulas are those of",
              "# models/dtof/design/estimate.cpp and synth/dtof_synth/estimate.py. um2, mW at 330 MHz, MHz in the slow corner.",
@@ -392,7 +393,7 @@ def report(root: Path, found: list[Error]) -> str:
 
 
 def write(root: Path) -> list[Error]:
-    """Coefficients and report from the figures that lie here."""
+    """Writes coefficients and report from the present figures."""
     points, steps = read(root), read_steps(root)
     found = checked(errors(points, steps))
     (root / COEFFICIENTS).write_text(coefficients(root, fit(points, steps), found), encoding="utf-8")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files that several runs of the flow share."""
+"""Files that concurrent runs of the flow share."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 
 
 def write_if_changed(path: Path, text: str) -> None:
-    """At once: another run may be reading the file."""
+    """Writes a file in one step, since another run may be reading it."""
     if path.exists() and path.read_text(encoding="utf-8") == text:
         return
     with tempfile.NamedTemporaryFile("w", dir=path.parent, prefix=".", suffix=".part", encoding="utf-8", delete=False) as file:

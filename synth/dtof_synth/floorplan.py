@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where things stand on the die, and what the ways between them need.
+"""Positions of cells on the die, and the buffers and repeaters that the wires between them need.
 
-Columns stand side by side in order, the shared logic under their middle, an engine under the middle of its pairs of
-columns, and the ports of a column's timestamps above it. Only the distance along the row counts: a column is 0.02 mm
-wide and the row 5 mm.
+Columns stand side by side in order. The shared logic is below their middle, an engine below the middle of its pairs of columns, and the
+ports of a column's timestamps above the column. Only the distance along the row counts: a column is 0.02 mm wide and the row 5 mm.
 
-Between the shared logic and the columns a signal goes from a register to a register (hdl/common/dtof_broadcast.sv). The last
-one is copied, so that each copy serves the columns near it through few buffers. Longer ways get a repeater every
-REPEATER_UM. All of it is in the netlist, so that it is counted, timed (spef.py) and simulated like any other cell.
+Between the shared logic and the columns a signal goes from register to register (hdl/common/dtof_broadcast.sv). The last register is
+copied, so that each copy serves nearby columns through few buffers. Longer wires get a repeater every REPEATER_UM. All of this is in the
+netlist, so it is counted, timed (spef.py) and simulated like any other cell.
 """
 
 from __future__ import annotations
@@ -38,7 +37,7 @@ UNTIMED_PORTS = {"clk_i", "rst_ni", "sram_cfg_i"}
 
 @dataclass(frozen=True)
 class Wire:
-    """A metal: resistance and capacitance with neighbours on both sides."""
+    """A metal layer: resistance and capacitance, with neighbours on both sides."""
 
     ohm_per_um: float
     ff_per_um: float
@@ -55,7 +54,7 @@ def _place_numbers(name: str) -> tuple[int, ...]:
 
 
 class Floorplan:
-    """Places of a mapped array's cells along the row, um."""
+    """Positions of a mapped array's cells along the row, um."""
 
     def __init__(self, design: dict, columns_per_module: int, columns_per_engine: int = 0, pitch_um: float = PITCH_UM) -> None:
         self.array = netlist.top(design)
@@ -73,19 +72,19 @@ class Floorplan:
         self._place_gates()
 
     def rename(self, called: dict[str, str]) -> None:
-        """Follows cells that have got new names; `called`: what each was called before."""
+        """Renames cells. `called`: the previous name of each."""
         self.places = {name: self.places[before] for name, before in called.items() if before in self.places}
 
     def __getitem__(self, cell: str) -> float:
         return self.places.get(cell, self.centre_um)
 
     def port_um(self, net: int, sink: str) -> float:
-        """Place of an input port: above its column, or beside the shared logic."""
+        """Position of an input port: above its column, or beside the shared logic."""
         return self[sink] if net in self.timestamps else self.centre_um
 
     def _place_gates(self) -> None:
-        """Gates whose inputs all come from columns stand in the middle of these, and so do the registers BESIDE_COLUMNS: the OR of
-        an engine's pairs."""
+        """Places gates whose inputs all come from columns in the middle of these columns, and also the registers BESIDE_COLUMNS (the OR of
+        an engine's pairs)."""
         driver: dict[int, str] = {}
         for name, cell in self.array["cells"].items():
             for pin, bits in cell["connections"].items():
@@ -114,7 +113,7 @@ class Floorplan:
 
 
 class _Spreader:
-    """Takes the top's nets to where their sinks are."""
+    """Routes the top's nets to the positions of their sinks."""
 
     def __init__(self, plan: Floorplan, builder: TreeBuilder, library: Library, wire: Wire) -> None:
         self.plan = plan
@@ -123,7 +122,7 @@ class _Spreader:
         self.leaf_ff = library.buffers[-1].max_load_ff * TREE_LOAD_SHARE
 
     def _clusters(self, sinks: Iterable[Sink], limit_ff: float, span_um: float) -> list[list[Sink]]:
-        """Neighbours, within a span and a load."""
+        """Groups of neighbouring sinks within a span and a load."""
         found: list[list[Sink]] = []
         for sink in sorted(sinks, key=lambda sink: self.plan[sink.cell]):
             last = found[-1] if found else []
@@ -147,7 +146,7 @@ class _Spreader:
         return sink
 
     def spread(self, net: int, driver: str | None, maximum_ff: float, copy: bool) -> None:
-        """Gives a net's sinks what its way needs. `copy`: the net's driver is a register that may be copied."""
+        """Gives a net the buffers and repeaters that it needs. `copy`: the net's driver is a register that may be copied."""
         sinks = self.builder.nets[net]
         start = self.plan[driver] if driver is not None else self.plan.port_um(net, sinks[0].cell)
         limit = maximum_ff * TREE_LOAD_SHARE
@@ -171,7 +170,7 @@ class _Spreader:
             self.builder.nets[net] = self._relieve(net, start, near + self._trunk(net, start, leaves), limit)
 
     def _trunk(self, net: int, start: float, sinks: list[Sink]) -> list[Sink]:
-        """What of a wire to both sides its driver itself drives; the rest is behind repeaters."""
+        """Sinks that the driver of a wire to both sides drives itself; the others are behind repeaters."""
         first: list[Sink] = []
         for side in (-1, 1):
             hops: dict[int, list[Sink]] = {}
@@ -186,7 +185,7 @@ class _Spreader:
         return first
 
     def _relieve(self, net: int, start: float, sinks: list[Sink], limit: float) -> list[Sink]:
-        """Buffers beside the driver where it is too weak."""
+        """Adds buffers beside a driver that is too weak."""
         while netlist.load_of(sinks) + self._span_ff(sinks, start) > limit or len(sinks) > netlist.MAX_FANOUT:
             room = self.leaf_ff - REPEATER_UM * self.wire.ff_per_um
             parents = [self._buffer(net, cluster, start) for cluster in self._clusters(sinks, room, 2 * REPEATER_UM)]
@@ -198,7 +197,7 @@ class _Spreader:
 
 def spread(plan: Floorplan, library: Library, pin_load: Callable[[str, str], float], skip: set[int],
            wire: Wire = PESSIMISTIC) -> None:
-    """Trees, copies of registers and repeaters of the top. `skip`: clocks and constants."""
+    """Inserts trees, copies of registers and repeaters in the top. `skip`: clocks and constants."""
     array = plan.array
     builder = TreeBuilder(array, library, pin_load)
     spreader = _Spreader(plan, builder, library, wire)
@@ -228,7 +227,7 @@ def spread(plan: Floorplan, library: Library, pin_load: Callable[[str, str], flo
 
 
 def pin_load(library: Library, macro_pin_ff: float) -> Callable[[str, str], float]:
-    """Load of a pin of a library cell, or of a macro."""
+    """Function that returns the load of a pin of a library cell or a macro."""
     return lambda kind, pin: library.input_ff[kind].get(pin, 0.0) if kind in library.input_ff else macro_pin_ff
 
 
@@ -256,8 +255,8 @@ def finish(design: dict, library: Library, macro_pin_ff: float, configuration: C
 
 
 def check_borders(design: dict, library: Library) -> None:
-    """FlowError if a column or an engine hears something that does not come from a register through buffers alone. A
-    timestamp's port is a register of its TDC."""
+    """FlowError if an input of a column or an engine does not come from a register through buffers alone. A timestamp's port counts as a
+    register, that of its TDC."""
     array = netlist.top(design)
     timestamps = set(array["ports"].get(TIMESTAMP_PORT, {"bits": []})["bits"])
     blocks = {netlist.column_module(design), netlist.engine_module(design)}
@@ -289,7 +288,7 @@ def check_borders(design: dict, library: Library) -> None:
 
 
 def _registered_ports(module: Module, sources: set[str], through: set[str]) -> set[str]:
-    """Outputs of a module whose bits all come from `sources`, registers and constants, through buffers alone."""
+    """Outputs of a module whose bits all come from `sources`, registers or constants, through buffers alone."""
     driver = {bits[0]: cell for cell in module["cells"].values() for pin, bits in cell["connections"].items()
               if cell["port_directions"].get(pin) == "output" and len(bits) == 1}
     found = set()

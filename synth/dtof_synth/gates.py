@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What `make synth STRICT=1` demands: every goal is met and no slack is negative, unless synth/exceptions.toml says why not."""
+"""Checks of `make synth STRICT=1`: every goal is met and no slack is negative, unless synth/exceptions.toml says why not."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FILE = "synth/exceptions.toml"
 
 @dataclass(frozen=True)
 class Exemption:
-    """A check that may fail. `what` is the check's text."""
+    """A check that may fail. `what`: text of the check."""
 
     what: str
     reason: str
@@ -27,7 +27,7 @@ class Exemption:
 
 
 def read(path: Path) -> list[Exemption]:
-    """The list of exceptions; FlowError where an entry lacks one of its three values or stands there twice."""
+    """Exceptions in the file. FlowError for an entry that lacks one of its three values or occurs twice."""
     try:
         entries = tomllib.loads(path.read_text(encoding="utf-8")).get("exception", [])
     except (OSError, tomllib.TOMLDecodeError) as error:
@@ -44,7 +44,7 @@ def read(path: Path) -> list[Exemption]:
 
 
 def slacks(results: dict[str, Result]) -> list[Goal]:
-    """One check for each slack of the reports that no goal has: none may be negative; and one for the edges of each corner."""
+    """A check for each slack of the reports that is not part of a goal (none may be negative), and one for the edges of each corner."""
     checks: list[Goal] = []
     for name, result in results.items():
         for corner, timing in result.timing.items():
@@ -67,7 +67,7 @@ _MEASURED = re.compile(r"\| (?P<text>.+?) \| *(?P<value>[\d.]+) \+-(?P<half>[\d.
 
 
 def measured(report: Path) -> list[Goal]:
-    """The goals in the table of reports/pool.md. A goal is met only if its whole 95 % interval is below the limit."""
+    """Goals in the table of reports/pool.md. A goal is met only if its whole 95 % interval is below the limit."""
     try:
         section = report.read_text(encoding="utf-8").split("## Goals\n", 1)[1].split("\n## ", 1)[0]
     except (OSError, IndexError):
@@ -88,8 +88,8 @@ def measured(report: Path) -> list[Goal]:
 
 
 def judge(checks: Iterable[Goal], exemptions: Iterable[Exemption], everything: bool) -> tuple[list[str], bool]:
-    """(a line for each check that fails or that needs no exception any more, whether that is an error). `everything`: the checks
-    are all there are, so that an exception for a check that is not among them is an error, too."""
+    """(line, whether it is an error) for each check that fails, or that no longer needs its exception. `everything`: all checks are
+    present, so an exception for a missing check is an error, too."""
     allowed = {one.what: one for one in exemptions}
     lines, failed = [], False
     known: set[str] = set()

@@ -20,7 +20,7 @@ ALIKE = 1.05
 
 @dataclass(frozen=True)
 class Goal:
-    """`is_open`: the goal is not met, but the interval of the value holds the limit."""
+    """A goal and its value. `is_open`: not met, but the interval of the value contains the limit."""
 
     text: str
     value: str
@@ -29,7 +29,7 @@ class Goal:
 
 
 def ranks(results: dict[str, Result]) -> dict[str, int]:
-    """Rank of the read-outs of Table 1 by our area."""
+    """Ranks by area of the read-outs of Table 1, with our areas."""
     order = sorted(THESIS_RANK, key=lambda name: results[name].total_mm2)
     found: dict[str, int] = {}
     rank, first = 0, 0.0
@@ -42,7 +42,7 @@ def ranks(results: dict[str, Result]) -> dict[str, int]:
 
 
 def check(results: dict[str, Result]) -> list[Goal]:
-    """The goals of which all results are there."""
+    """Goals for which all results are present."""
     goals = []
     for name, result in results.items():
         if result.configuration.variant_of:

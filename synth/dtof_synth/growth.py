@@ -23,8 +23,8 @@ ENGINE_CLOCKS = 333_440 - 220  # of a frame of 33,333 acquisitions in 11.0e6 clo
 
 
 def engine_columns(configuration: Configuration) -> int:
-    """Columns that one engine of poolPointer has time for, evenly shared among the engines
-    (docs/reference/poolpointer.md, Cycle budget)."""
+    """Columns that one engine of poolPointer has time for, shared evenly among the engines (docs/reference/poolpointer.md, Cycle
+    budget)."""
     columns, labels = configuration["SRAM_NUM"], configuration["LABELS"]
     groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
     rows = configuration["PIXELS_PER_SRAM"]
@@ -38,7 +38,7 @@ def engine_columns(configuration: Configuration) -> int:
 
 
 def candidates(base: Configuration) -> list[tuple[str, int | str, Configuration]]:
-    """(parameter, value, configuration) for each number and width of candidates; the base is one of them."""
+    """(parameter, value, configuration) for each number and width of candidates, including the base."""
     points: list[tuple[str, int | str, Configuration]] = []
     for labels, bits in CANDIDATES:
         if (labels, bits) == (base["LABELS"], base["SCORE_BITS"]):
@@ -51,7 +51,7 @@ def candidates(base: Configuration) -> list[tuple[str, int | str, Configuration]
 
 
 def point(base: Configuration, parameter: str, value: int) -> Configuration:
-    """The base with one parameter changed, and with NP what follows from it (NB, GUARD)."""
+    """The base with one parameter changed, and with NP also the parameters that depend on it (NB, GUARD)."""
     changes = {parameter: value}
     if parameter == "NP":
         changes["NB"] = value // 2 + (1 if base.readout == "sifh" else 0)
@@ -60,7 +60,7 @@ def point(base: Configuration, parameter: str, value: int) -> Configuration:
 
 
 def sweep(configurations: dict[str, Configuration]) -> list[tuple[str, int | str, Configuration]]:
-    """(parameter, value, configuration) of every point; the base itself is a point of every sweep."""
+    """(parameter, value, configuration) for every point of the sweeps; the base is part of every sweep."""
     points: list[tuple[str, int | str, Configuration]] = []
     for readout in READOUTS:
         base = configurations[readout]
@@ -74,14 +74,14 @@ def sweep(configurations: dict[str, Configuration]) -> list[tuple[str, int | str
 
 
 def jobs(configurations: dict[str, Configuration]) -> list[Job]:
-    """The points that are no named configuration, timed in the slow corner only, mapped once: arrays of 400 columns do not
-    close whatever is tried."""
+    """Points that are no named configurations. They are timed in the slow corner only and mapped once: arrays of 400 columns never
+    close."""
     return [Job(configuration, ("slow",), most_attempts=1) for _, _, configuration in sweep(configurations)
             if configuration.name not in configurations]
 
 
 def write(points: list[tuple[str, int | str, Configuration]], results: dict[str, Result], reports: Path) -> None:
-    """growth.csv; scripts/growth_plot.py draws it."""
+    """Writes growth.csv; scripts/growth_plot.py draws it."""
     rows = []
     for parameter, value, configuration in points:
         result = results[configuration.name]

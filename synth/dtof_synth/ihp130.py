@@ -26,7 +26,7 @@ _NAME = re.compile(r"RM_IHPSG13_([12])P_(\d+)x(\d+)_c(\d+)")
 
 @dataclass(frozen=True)
 class Compiled:
-    """A macro of the PDK: um, ns (delays and constraints at the middle of their tables)."""
+    """A macro of the PDK. Lengths in um, times in ns; delays and constraints are those in the middle of their tables."""
 
     name: str
     size: Size
@@ -44,7 +44,7 @@ class Compiled:
 
 
 def cells(pdk: Path) -> tuple[Path, Path]:
-    """Liberty of the standard cells, typical and slow."""
+    """Liberty files of the standard cells, typical and slow."""
     folder = pdk / "ihp130"
     return folder / f"sg13g2_stdcell{TYPICAL_SUFFIX}.lib.gz", folder / f"sg13g2_stdcell{SLOW_SUFFIX}.lib.gz"
 
@@ -65,7 +65,7 @@ def _timings(group: Group) -> Iterable[Group]:
 
 
 def _worst(cell: Group, kind: str, tables: tuple[str, ...]) -> float:
-    """Largest of the functional pins' figures; the macros' self-test has pins of its own."""
+    """Largest figure of the functional pins; pins of the macro's self-test are ignored."""
     found = [_middle(table) for pin in cell.groups if "BIST" not in pin.name
              for timing in _timings(pin) if timing.get("timing_type") == kind
              for table in timing.groups if table.kind in tables]
@@ -79,7 +79,7 @@ def _cell(path: Path) -> Group:
 
 
 def read(folder: Path) -> list[Compiled]:
-    """Every macro of the folder that has LEF and both Liberty files."""
+    """All macros of the folder that have LEF and both Liberty files."""
     macros = []
     for lef in sorted(folder.glob("*.lef.gz")):
         stem = lef.name.removesuffix(".lef.gz")
@@ -98,14 +98,14 @@ def read(folder: Path) -> list[Compiled]:
 
 
 def choose(size: Size, macros: list[Compiled]) -> tuple[int, Compiled] | None:
-    """(copies side by side, macro) of the least area, or None where every macro has too few words."""
+    """(number of copies side by side, macro) with the least area; None if all macros have too few words."""
     fitting = [(-(-size.bits // macro.size.bits), macro) for macro in macros
                if macro.size.ports == size.ports and macro.size.words >= size.words]
     return min(fitting, key=lambda choice: choice[0] * choice[1].area) if fitting else None
 
 
 def macro(size: Size, macros: list[Compiled]) -> Macro:
-    """The memory of IHP's macros, or the model's where none fits."""
+    """The memory made of IHP's macros, or the model's macro if none fits."""
     ours = sram_model.macro(size)
     choice = choose(size, macros)
     if choice is None:

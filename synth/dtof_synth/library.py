@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the flow needs to know about a standard-cell library, read from its Liberty."""
+"""Facts about a standard-cell library that the flow needs, read from its Liberty."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class Library:
 
     @property
     def smaller(self) -> dict[str, str]:
-        """The next smaller drive of each cell that has one."""
+        """For each cell, the same cell with the next smaller drive, if there is one."""
         return {name: before for family in self.drives for before, name in zip(family, family[1:])}
 
 
@@ -85,7 +85,7 @@ def _function(pin: Group) -> str:
 
 
 def _wire_load(library: Group, unit: float) -> tuple[str, float]:
-    """(name, fF a sink) of the default wire load, or of the one named for a thousand gates, or none."""
+    """(name, fF per sink) of the default wire load, or of the one named for a thousand gates; (empty, 0) without one."""
     loads = {group.name: group for group in library.children("wire_load")}
     name = library.get("default_wire_load")
     if name not in loads:
@@ -106,12 +106,12 @@ def _nand2_area(cells: list[Group]) -> float:
 
 
 def _mux2_area(cells: list[Group]) -> float:
-    """By name, since libraries write a multiplexer's function in many ways."""
+    """Area of a two-input multiplexer, found by cell name, since libraries write its function in many ways."""
     return min((cell.number("area") for cell in cells if re.search("mux2", cell.name, re.IGNORECASE)), default=0.0)
 
 
 def _internal_clock_energy(pin: Group) -> float:
-    """Energy of one clock cycle inside a register: rise and fall at the lightest slew, mean of all states."""
+    """Energy of one clock cycle inside a register: rise and fall at the smallest slew, mean over all states."""
     powers = pin.children("internal_power")
     tables = [table for power in powers for table in power.groups]
     firsts = [value[0] for table in tables for key, value in table.attributes if key == "values"]
@@ -119,7 +119,7 @@ def _internal_clock_energy(pin: Group) -> float:
 
 
 def _drives(cells: list[Group]) -> list[list[str]]:
-    """Cells that only differ in their last number: the names of all libraries here end in the drive."""
+    """Groups of cells whose names differ in the last number only: in all libraries here it is the drive."""
     families: dict[tuple, list[tuple[float, str]]] = {}
     for cell in cells:
         stem = re.fullmatch(r"(.*?)\d+", cell.name)
@@ -130,7 +130,7 @@ def _drives(cells: list[Group]) -> list[list[str]]:
 
 
 def _clock_gate(cell: Group, unit: float) -> ClockGate | None:
-    """The cell as a clock gate; None unless it serves rising-edge registers and has no pin for scan mode."""
+    """The cell as a clock gate; None unless it is for rising-edge registers and without a pin for scan mode."""
     if cell.get("clock_gating_integrated_cell").strip('"') != "latch_posedge":
         return None
     clock, enable, output = (next((pin for pin in cell.children("pin") if pin.get(f"clock_gate_{role}_pin").strip('"') == "true"), None)
@@ -141,7 +141,7 @@ def _clock_gate(cell: Group, unit: float) -> ClockGate | None:
 
 
 def read(path: Path) -> Library:
-    """FlowError if the file is no Liberty or lacks an inverter, buffer, NAND2 or flip-flop."""
+    """Reads a library. FlowError if the file is no Liberty, or lacks an inverter, buffer, NAND2 or flip-flop."""
     root = liberty.read(path)
     unit = _capacitance_unit_ff(root, path)
     cells = root.children("cell")

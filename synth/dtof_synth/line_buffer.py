@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Area of dtof_subsystem's line buffer beside its array: dtof_line_buffer of the default number of lines, in registers, mapped alone."""
+"""Area of dtof_subsystem's line buffer relative to its array. dtof_line_buffer is mapped alone, with the default number of lines, in
+registers."""
 
 from __future__ import annotations
 
@@ -18,13 +19,13 @@ Size = tuple[int, int, int]  # lines of an acquisition, of the buffer, bits of a
 
 
 def size(configuration: Configuration) -> Size:
-    """As dtof_subsystem's BUFFER_LINES with CLOCK_WAITS = 1."""
+    """Size of the line buffer for dtof_subsystem's default BUFFER_LINES with CLOCK_WAITS = 1."""
     slots = configuration["SLOTS"]
     return configuration["PIXELS_PER_SRAM"] * slots, max(slots, 2), configuration["SRAM_NUM"] * configuration["NP"]
 
 
 def area(of: Size, technology: Technology, folder: Path) -> float:
-    """um2; FlowError if a step fails."""
+    """Area in um2; FlowError if a step fails."""
     folder.mkdir(parents=True, exist_ok=True)
     acquisition_lines, lines, width = of
     settings, log = folder / "line_buffer_settings.tcl", folder / "line_buffer.log"
@@ -39,7 +40,7 @@ def area(of: Size, technology: Technology, folder: Path) -> float:
 
 
 def areas(results: Iterable[Result], technology: Technology, folder: Path) -> dict[str, float]:
-    """um2 by the names of configurations; equal sizes are mapped once."""
+    """Area in um2 by configuration name; equal sizes are mapped once."""
     kept: dict[Size, float] = {}
     found = {}
     for result in results:
@@ -51,14 +52,14 @@ def areas(results: Iterable[Result], technology: Technology, folder: Path) -> di
 
 
 def goals(results: Sequence[tuple[Result, float]], found: dict[str, float]) -> list[Goal]:
-    """A line buffer is at most a share of its array; `results` with the um2 of their arrays."""
+    """Goals that limit the line buffer's share of its array. `results`: with the area of each array in um2."""
     return [Goal(f"{result.configuration.title}: line buffer at most {100 * GOAL:g} % of the array",
                  f"{found[result.configuration.name] / total:.2%}", found[result.configuration.name] / total <= GOAL)
             for result, total in results]
 
 
 def section(results: Sequence[tuple[Result, float]], found: dict[str, float]) -> str:
-    """A part of area.md: `results` with the um2 of their arrays."""
+    """Section of area.md. `results`: with the area of each array in um2."""
     rows = []
     for (result, _), goal in zip(results, goals(results, found)):
         _, lines, width = size(result.configuration)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What every driver has to carry against its limits: the Liberty's max_capacitance, and a number of inputs.
+"""Loads of all drivers compared with their limits: the Liberty's max_capacitance, and a number of inputs.
 
-OpenSTA of 2019 checks neither. Inside a block a net has its pins and the wire load of each; a net between blocks has the wire of the
-floorplan besides, in the slow corner. Not looked at: the clock, which has a tree of its own; constants, of which a layout puts a tie
-wherever one is needed; and what input ports drive.
+OpenSTA of 2019 checks neither. Inside a block a net has its pins and the wire load of each. A net between blocks also has the wire of the
+floorplan, in the slow corner. Not examined are the clock, which has a tree of its own; constants, since a layout puts a tie cell wherever
+one is needed; and the nets that input ports drive.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _MOST_NAMED = 3
 
 @dataclass(frozen=True)
 class Load:
-    """What one driver drives: load in fF with its limit, and the number of inputs."""
+    """Load of one driver in fF with its limit, and the number of inputs."""
 
     driver: str
     ff: float
@@ -38,7 +38,7 @@ class Load:
 
 
 def of_block(design: dict, kind: str, library: Library, pin_load: Callable[[str, str], float]) -> Iterable[Load]:
-    """The nets that do not leave a column or an engine."""
+    """Loads of the nets inside a column or an engine."""
     module = netlist.modules(design)[kind]
     ports = {bit for port in module["ports"].values() for bit in port["bits"]}
     skip = ports | netlist.clock_nets(module) | netlist.constant_nets(module, library)
@@ -53,7 +53,7 @@ def of_block(design: dict, kind: str, library: Library, pin_load: Callable[[str,
 
 @dataclass(frozen=True)
 class _Driven:
-    """A net between blocks: the cell that drives it, of a block or of the top, and what it carries."""
+    """A net between blocks: its driver (a cell of a block or of the top) and its load."""
 
     name: str
     block: str  # kind of block, or netlist.TOP
@@ -65,7 +65,7 @@ class _Driven:
 
 
 def _driven(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> Iterable[_Driven]:
-    """Every net between blocks, from the cell that drives it to the last input in a block."""
+    """All nets between blocks, from the driving cell to the last input in a block."""
     array = netlist.top(design)
     skip = netlist.clock_nets(array) | netlist.constant_nets(array, library)
     inside: dict[str, dict[int, list[netlist.Sink]]] = {}
@@ -93,7 +93,7 @@ def _driven(design: dict, plan: Floorplan, library: Library, pin_load: Callable[
 
 
 def of_top(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> Iterable[Load]:
-    """The nets between blocks."""
+    """Loads of the nets between blocks."""
     for one in _driven(design, plan, library, pin_load):
         module = netlist.top(design) if one.block == netlist.TOP else netlist.modules(design)[one.block]
         limit = library.max_load_ff.get(module["cells"][one.cell]["type"], {}).get(one.pin, 0.0)
@@ -102,7 +102,7 @@ def of_top(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[
 
 
 def between_blocks(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> dict[str, dict[int, float]]:
-    """fF of the nets between blocks, by the kind of block that drives them and its net; of instances the most."""
+    """Load in fF of the nets between blocks, by the kind of block that drives them and its net; the largest over the instances."""
     found: dict[str, dict[int, float]] = {}
     for one in _driven(design, plan, library, pin_load):
         nets = found.setdefault(one.block, {})
@@ -111,7 +111,7 @@ def between_blocks(design: dict, plan: Floorplan, library: Library, pin_load: Ca
 
 
 def strengthen(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> None:
-    """Gives each cell of the top that is too weak for its wire the drive that suffices, if there is one."""
+    """Replaces each cell of the top that is too weak for its wire by one with enough drive, if there is one."""
     family = {kind: kinds for kinds in library.drives for kind in kinds}
     cells = netlist.top(design)["cells"]
     for one in _driven(design, plan, library, pin_load):
@@ -123,13 +123,13 @@ def strengthen(design: dict, plan: Floorplan, library: Library, pin_load: Callab
 
 
 def _kind_and_pin(design: dict, name: str) -> tuple[str, str]:
-    """The type of the cell of a pin named as OpenSTA does, and the pin's name without its bit."""
+    """Cell type and pin name (without bit) of a pin named as in OpenSTA."""
     kind, cell, pin = netlist.local_pin(design, name)
     return (netlist.modules(design)[kind] if kind else netlist.top(design))["cells"][cell]["type"], pin.split("[")[0]
 
 
 def check(name: str, design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> Load:
-    """The load that is nearest to its limit; FlowError if one is beyond. `design`: with all columns real."""
+    """The load that is closest to its limit. FlowError if one exceeds its limit. `design`: with all columns real."""
     blocks = [kind for kind in (netlist.column_module(design), netlist.engine_module(design)) if kind]
     found = [load for kind in blocks for load in of_block(design, kind, library, pin_load)]
     found += of_top(design, plan, library, pin_load)

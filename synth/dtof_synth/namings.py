@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far area and slack depend on names, on which nothing but ABC's result depends.
+"""Dependence of area and slack on names. Names influence ABC's result and nothing else.
 
-`make synth` maps with one naming, the same for every configuration. Here each configuration is mapped with several, and a read-out
-closes its clock only if every one closes.
+`make synth` maps with one naming, the same for every configuration. Here each configuration is mapped with several namings, and a read-out
+closes its clock only if it closes with all of them.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _SLOW, _FAST = "slow", "fast"
 
 @dataclass(frozen=True)
 class Spread:
-    """One configuration with all namings. Areas of the array in mm2, slacks in ns; `quoted` is the naming of `make synth`."""
+    """Results of one configuration with all namings. Areas of the array in mm2, slacks in ns. `quoted`: the naming of `make synth`."""
 
     title: str
     quoted: float
@@ -36,7 +36,7 @@ class Spread:
 
     @property
     def spread(self) -> float:
-        """Largest less smallest area, as a share of the median."""
+        """(largest area - smallest area) / median."""
         return (max(self.areas) - min(self.areas)) / self.median
 
     @property
@@ -53,7 +53,7 @@ def jobs(configurations: list[Configuration]) -> list[Job]:
 
 
 def spreads(configurations: list[Configuration], results: dict[str, Result]) -> dict[str, Spread]:
-    """By configuration, of the results of `jobs`."""
+    """Spread by configuration, from the results of `jobs`."""
     found = {}
     for item in configurations:
         own = [results[Job(item, naming=naming).name] for naming in range(NAMINGS)]

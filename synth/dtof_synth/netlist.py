@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mapped netlists as Yosys writes them in JSON: counts, fan-out trees, and the reduced array for timing.
+"""Mapped netlists in Yosys's JSON: counts, fan-out trees, and the reduced array for timing.
 
-The array is synthesised as it is, instances of one column module (of one column, or two that share an SRAM). A net that drives more than its
-driver can is given a tree of buffers; between the shared logic and the columns trees follow the floorplan
-(floorplan.py), so that the broadcast is counted and timed with its wires. For timing, all but a few columns are replaced by
-the logic at their borders (stand_in.py).
+The array is synthesised as it is, with instances of one column module (of one column, or of the columns that share an SRAM). A net whose
+load exceeds its driver's limit gets a tree of buffers. Between the shared logic and the columns, trees follow the floorplan (floorplan.py),
+so that the broadcast is counted and timed with its wires. For timing, all but a few columns are replaced by the logic at their borders
+(stand_in.py).
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ MAX_FANOUT = 200  # inputs of a net, at whatever load
 
 @dataclass(frozen=True)
 class Counts:
-    """Cells of one module (its columns and macros apart)."""
+    """Cells of one module, without its columns and macros."""
 
     cells: int
     flip_flops: int
@@ -44,7 +44,7 @@ class Counts:
     clock_sinks: int = 0  # how many they are
 
     def share(self, columns: int) -> Counts:
-        """What one of a module's columns has of it."""
+        """Share of each of `columns` columns in these counts."""
         return self if columns == 1 else Counts(
             *(round(value / columns) if isinstance(value, int) else value / columns for value in astuple(self)))
 
@@ -54,7 +54,7 @@ def modules(design: dict) -> dict[str, Module]:
 
 
 def column_module(design: dict) -> str:
-    """Name of the one column module; FlowError if there is not exactly one kind."""
+    """Name of the column module. FlowError unless there is exactly one kind."""
     used = _kinds(design, COLUMN_SUFFIXES)
     if len(used) != 1:
         raise FlowError(f"the array has {len(used)} kinds of columns instead of one: {sorted(used)}")
@@ -68,7 +68,7 @@ def columns(design: dict) -> list[str]:
 
 
 def engine_module(design: dict) -> str:
-    """Name of the module that several columns share, if there is one; FlowError if there are several kinds."""
+    """Name of the module that several columns share, if there is one. FlowError if there are several kinds."""
     used = _kinds(design, (ENGINE_SUFFIX,))
     if len(used) > 1:
         raise FlowError(f"the array has {len(used)} kinds of engines instead of one: {sorted(used)}")
@@ -87,7 +87,7 @@ def top(design: dict) -> Module:
 
 
 def rename_parts(design: dict) -> None:
-    """Gives the derived column and engine modules their plain names, which every tool reads."""
+    """Gives the derived column and engine modules their plain names, which every tool can read."""
     for old in filter(None, (column_module(design), engine_module(design))):
         plain = old.split("\\")[-1]
         modules(design)[plain] = modules(design).pop(old)
@@ -115,7 +115,7 @@ def count(module: Module, library: Library) -> Counts:
 
 
 def count_engines(design: dict, library: Library) -> Counts:
-    """All engines together; nothing where the array has none."""
+    """Cells of all engines together; empty without engines."""
     engine = engine_module(design)
     number = sum(cell["type"] == engine for cell in top(design)["cells"].values())
     one = count(modules(design)[engine], library) if number else Counts(0, 0, 0.0, 0, 0.0, 0.0, 0.0)
@@ -123,7 +123,7 @@ def count_engines(design: dict, library: Library) -> Counts:
 
 
 def count_shared(design: dict, library: Library) -> Counts:
-    """Everything outside the columns: the top and its engines."""
+    """Cells outside the columns: the top and its engines."""
     return Counts(*(a + b for a, b in zip(astuple(count(top(design), library)),
                                           astuple(count_engines(design, library)))))
 
@@ -137,7 +137,7 @@ def foreign_cells(design: dict, library: Library, macros: set[str]) -> set[str]:
 
 @dataclass
 class Sink:
-    """One load of a net: the cell, the connection list and index to rewire, and its capacitance."""
+    """A load of a net: cell, connection list and index to rewire, and capacitance."""
 
     cell: str
     bits: list
@@ -146,7 +146,7 @@ class Sink:
 
 
 def sinks_of(module: Module, pin_load: Callable[[str, str], float], wire: float) -> dict[int, list[Sink]]:
-    """The loads of every net; `wire`: capacitance of the wire of each."""
+    """Loads of every net. `wire`: wire capacitance of each load."""
     nets: dict[int, list[Sink]] = {}
     for name, cell in module["cells"].items():
         for pin, bits in cell["connections"].items():
@@ -160,7 +160,7 @@ def sinks_of(module: Module, pin_load: Callable[[str, str], float], wire: float)
 
 
 def drivers_of(module: Module, library: Library, port_drive: float) -> Iterator[tuple[int, float]]:
-    """(net, load the driver takes) of every driven net; an input port drives like the smallest buffer."""
+    """(net, largest load of its driver) for every driven net; an input port drives like the smallest buffer."""
     for port in module["ports"].values():
         if port["direction"] == "input":
             yield from ((bit, port_drive) for bit in port["bits"] if isinstance(bit, int))
@@ -179,7 +179,7 @@ def _next_net(module: Module) -> int:
 
 
 def clusters(sinks: list[Sink], limit: float) -> list[list[Sink]]:
-    """As few clusters as the limit allows, evenly filled."""
+    """Divides sinks into the fewest clusters within the limit, of nearly equal loads."""
     total = sum(sink.load for sink in sinks)
     share = total / max(1, -(-total // limit))
     clusters: list[list[Sink]] = [[]]
@@ -219,7 +219,7 @@ class TreeBuilder:
         return self.fresh - 1
 
     def buffer(self, net: int, cluster: list[Sink], wire_ff: float = 0.0) -> Sink:
-        """Puts the smallest buffer that can drive a cluster of a net's sinks and a wire in front of them."""
+        """Inserts in front of a cluster of a net's sinks the smallest buffer that can drive them and a wire."""
         buffer = _smallest(self.buffers, load_of(cluster) + wire_ff)
         output = self._rewire(cluster)
         name = f"{TREE_PREFIX}{net}_{output}"
@@ -230,7 +230,7 @@ class TreeBuilder:
         return Sink(name, connections[buffer.input_pin], 0, buffer.input_ff + self.wire)
 
     def copy_register(self, net: int, cluster: list[Sink]) -> tuple[str, int]:
-        """Gives a cluster its own copy of the register that drives the net; returns its name and the net that it drives."""
+        """Copies the register that drives the net for a cluster; returns the copy's name and net."""
         original = self.module["cells"][self.drivers[net]]
         output = self._rewire(cluster)
         pins = {pin: list(bits) for pin, bits in original["connections"].items()
@@ -245,7 +245,7 @@ class TreeBuilder:
         return name, output
 
     def relieve(self, net: int, maximum: float) -> None:
-        """Takes load off a net until its driver can carry it."""
+        """Reduces the load of a net until its driver can carry it."""
         limit = maximum * TREE_LOAD_SHARE
         leaf = self.buffers[-1].max_load_ff * TREE_LOAD_SHARE
         sinks = self.nets[net]
@@ -262,7 +262,7 @@ def load_of(sinks: list[Sink]) -> float:
 
 
 def strengthen(module: Module, library: Library, pin_load: Callable[[str, str], float], skip: set[int]) -> None:
-    """Gives a cell that is too weak for its load the drive that suffices, where that costs less than a buffer."""
+    """Replaces a cell that is too weak for its load by one with enough drive, if that costs less than a buffer."""
     nets = sinks_of(module, pin_load, library.wire_ff_per_sink)
     family = {kind: kinds for kinds in library.drives for kind in kinds}
     for cell in module["cells"].values():
@@ -278,7 +278,7 @@ def strengthen(module: Module, library: Library, pin_load: Callable[[str, str], 
 
 def insert_fanout_trees(module: Module, library: Library, pin_load: Callable[[str, str], float],
                         skip: set[int]) -> None:
-    """Relieves every overloaded net of a module whose cells are close to each other. `skip` are clock nets."""
+    """Inserts buffers for every overloaded net of a module whose cells are close to each other. `skip`: clock nets."""
     strengthen(module, library, pin_load, skip)
     builder = TreeBuilder(module, library, pin_load)
     for net, maximum in list(drivers_of(module, library, library.buffers[0].max_load_ff)):
@@ -298,28 +298,28 @@ def local_pin(design: dict, name: str) -> tuple[str, str, str]:
 
 
 def in_all_blocks(design: dict, pin: tuple[str, str, str]) -> list[str]:
-    """The names that OpenSTA has for a pin (local_pin), one for each block of its kind."""
+    """OpenSTA's names of a pin (local_pin), one for each block of its kind."""
     kind, cell, name = pin
     blocks = [f"{block}/" for block, other in top(design)["cells"].items() if other["type"] == kind] if kind else [""]
     return [f"{block}{cell}/{name}" for block in blocks]
 
 
 def has_pin(design: dict, name: str) -> bool:
-    """Whether a pin named as OpenSTA does is there and connected."""
+    """True if a pin named as in OpenSTA exists and is connected."""
     kind, cell, pin = local_pin(design, name)
     cells = (modules(design)[kind] if kind else top(design))["cells"]
     return cell in cells and pin.split("[")[0] in cells[cell]["connections"]
 
 
 def _bits_of(module: Module, cell: str, pin: str) -> tuple[list, int]:
-    """Where a pin named as OpenSTA does is connected: the list and the index in it."""
+    """Connection of a pin named as in OpenSTA: the list, and the index in it."""
     index = int(pin[pin.index("[") + 1:-1]) if "[" in pin else 0
     return module["cells"][cell]["connections"][pin.split("[")[0]], index
 
 
 def delay_pins(design: dict, buffers: dict[tuple[str, str, str], int], library: Library) -> dict[str, str]:
-    """Puts so many of the smallest buffers in front of each pin (local_pin); pins of one net share them. A block is delayed with
-    all of its kind. Returns beside which cell of the top each new buffer of the top stands."""
+    """Inserts the given number of smallest buffers in front of each pin (local_pin); pins of one net share them. All blocks of a kind are
+    delayed alike. Returns, for each new buffer of the top, the cell beside which it stands."""
     buffer = library.buffers[0]
     beside: dict[str, str] = {}
     fresh: dict[str, int] = {}
@@ -347,7 +347,7 @@ def delay_pins(design: dict, buffers: dict[tuple[str, str, str], int], library: 
 
 @dataclass(frozen=True)
 class Dispensable:
-    """A buffer of a block without which its driver could carry the load, as the cell `drive` if not as it is."""
+    """A buffer of a block that could be removed: its driver could carry the load, if necessary as the cell `drive`."""
 
     kind: str  # of block
     buffer: str
@@ -357,9 +357,8 @@ class Dispensable:
 
 def dispensable_buffers(design: dict, library: Library, kinds: Iterable[str],
                         pin_load: Callable[[str, str], float]) -> tuple[list[Dispensable], dict[str, dict[int, float]]]:
-    """Those that the cells' limits of load do not ask for, and what nets of the blocks carry without all of them. A drive that
-    costs as much as the buffer is none to choose. Buffers of trees, those that delay, and those behind one that may go are not
-    looked at."""
+    """Buffers that the load limits of the cells do not require, and the loads of the blocks' nets without all of them. A drive that costs
+    as much as the buffer is not considered. Not examined are buffers of trees, buffers that delay, and buffers behind a removable one."""
     found = []
     loads: dict[str, dict[int, float]] = {}
     buffers = {buffer.name: buffer for buffer in library.buffers}
@@ -398,7 +397,7 @@ def dispensable_buffers(design: dict, library: Library, kinds: Iterable[str],
 
 
 def drop_buffers(design: dict, library: Library, dropped: Iterable[tuple[str, str]]) -> None:
-    """Connects what buffers (kind of block, cell) drive to what drives them."""
+    """Removes buffers (kind of block, cell): connects their loads to their drivers."""
     buffers = {buffer.name: buffer for buffer in library.buffers}
     replaced: dict[str, dict[int, int]] = {}
     for kind, name in dropped:
@@ -415,7 +414,7 @@ def drop_buffers(design: dict, library: Library, dropped: Iterable[tuple[str, st
 
 
 def resize(design: dict, library: Library, cells: Iterable[tuple[str, str, str]]) -> None:
-    """Gives cells (kind of block or TOP, name, library cell) another drive; FlowError if it were another function."""
+    """Changes the drive of cells (kind of block or TOP, name, library cell). FlowError if the new cell has another function."""
     family = {kind: index for index, kinds in enumerate(library.drives) for kind in kinds}
     for kind, name, drive in cells:
         cell = (top(design) if kind == TOP else modules(design)[kind])["cells"][name]
@@ -426,9 +425,9 @@ def resize(design: dict, library: Library, cells: Iterable[tuple[str, str, str]]
 
 def shrinkable(design: dict, library: Library, kinds: Iterable[str], pin_load: Callable[[str, str], float],
                carried: dict[str, dict[int, float]] | None = None) -> list[tuple[str, str]]:
-    """(kind of block or TOP, cell) of what could drive its load with the next smaller drive; those that save most first. The
-    buffers of fan-out trees and the registers in front of them are as strong as they should be. `carried`: what nets of a kind
-    may have to carry, where that is not what they do."""
+    """(kind of block or TOP, cell) of cells whose load the next smaller drive can carry; those that save most come first. Buffers of
+    fan-out trees and the registers in front of them keep their drive. `carried`: largest possible loads of a kind's nets, where they differ
+    from the present ones."""
     found = []
     next_smaller = library.smaller
     for kind in kinds:
@@ -447,14 +446,14 @@ def shrinkable(design: dict, library: Library, kinds: Iterable[str], pin_load: C
 
 
 def clock_nets(module: Module) -> set[int]:
-    """Clock nets of the module: those of its ports, and those behind clock gates."""
+    """Clock nets of the module: its clock ports' nets and the nets behind clock gates."""
     return port_clock_nets(module) | {bit for name, cell in module["cells"].items() if name.startswith(CLOCK_GATE_PREFIX)
                                       for pin, bits in cell["connections"].items()
                                       if cell["port_directions"].get(pin) == "output" for bit in bits}
 
 
 def constant_nets(module: Module, library: Library) -> set[int]:
-    """Nets of tie cells, of which a layout puts one wherever a constant is needed."""
+    """Nets of tie cells; a layout puts a tie cell wherever a constant is needed."""
     ties = {cell for cell, _ in library.tie.values()}
     return {bit for cell in module["cells"].values() if cell["type"] in ties
             for bits in cell["connections"].values() for bit in bits}
@@ -476,9 +475,9 @@ def cell_kinds(design: dict, library: Library) -> set[str]:
 
 def prepare_simulation(design: dict, library: Library, suffix: str, power_up: str,
                        draw: Callable[[], bool]) -> None:
-    """Gives the design's own modules a suffix, so that the RTL's can stand beside them, and every register a state
-    at time 0 in its parameter `power_up`. Registers of one module power up alike in all its instances. Modules draw in
-    the design's order, for that of a set is another in each run of Python."""
+    """Appends a suffix to the names of the design's own modules, so that they can coexist with the RTL's. Sets every register's state at
+    time 0 by its parameter `power_up`; instances of one module get equal states. Modules draw in the design's order, which is the same in
+    each run of Python."""
     own = [name for name, module in modules(design).items() if module["cells"]]
     for name in own:
         module = modules(design).pop(name)

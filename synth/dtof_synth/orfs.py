@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What OpenROAD-flow-scripts needs to place and route an array: config.mk, constraints, LEF and Liberty of the SRAMs.
+"""Inputs of OpenROAD-flow-scripts for placing and routing an array: config.mk, constraints, LEF and Liberty of the SRAMs.
 
 The platform is its nangate45; macros have the 40 nm model's size, rounded up to that platform's sites, and its layers. The
 flow itself is not run here (docs/reference/layout.md).
@@ -70,7 +70,7 @@ def macro_lef(macro: Macro) -> str:
 
 
 def small(item: Configuration, columns: int) -> Configuration:
-    """The configuration with so many columns; an engine has no more than there are."""
+    """The configuration with this number of columns; engines have at most as many."""
     changes = {"SRAM_NUM": columns}
     if item.is_pool:
         changes["ENGINE_COLUMNS"] = min(columns, item["ENGINE_COLUMNS"])
@@ -82,7 +82,7 @@ def _list(name: str, values: list[str]) -> str:
 
 
 def config(item: Configuration, sizes: list[sram_model.Size], root: Path) -> str:
-    """config.mk; paths hang on where it lies, three folders below this project."""
+    """Text of config.mk. Its paths assume a folder three levels below the project."""
     parameters = " ".join(f"{name} {value}" for name, value in item.rtl_parameters().items())
     sources = [f"$(PROJECT)/{file.relative_to(root)}" for file in rtl_files(root)]
     technology = [f"$(FOLDER)/{kind.module}.sv" for kind in sram_model.KINDS.values()]
@@ -108,7 +108,7 @@ def constraints(root_from_here: str = "../../..") -> str:
 
 
 def write(item: Configuration, folder: Path, root: Path) -> list[Path]:
-    """All files of one configuration; returns them."""
+    """Writes all files of one configuration; returns their paths."""
     folder.mkdir(parents=True, exist_ok=True)
     sizes = sorted({*memories(item).values(), *engine_memories(item).values()})
     macros = [sram_model.macro(size) for size in sizes]

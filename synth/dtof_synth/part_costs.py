@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What each part of poolPointer takes: the flow with the parts' modules kept, counted in area and simulated for power.
+"""Area and power of each part of poolPointer: the flow with the parts' modules kept, counted in area and simulated for power.
 
 An engine of two columns and one pair go through the flow as in scene_power.py, but the modules in them are not flattened, so
 that each has cells and transitions of its own. Logic is no longer shared across the parts' borders, so that the sum is
@@ -36,7 +36,7 @@ class Part:
 
 
 def _instances(design: dict) -> dict[str, tuple[str, str]]:
-    """(block, instance) of every scope that activity.scopes_of knows, named before its instances are."""
+    """(block, instance) of every scope of activity.scopes_of; a scope comes before those inside it."""
     found: dict[str, tuple[str, str]] = {}
 
     def enter(module: dict, path: str, block: str) -> None:
@@ -56,7 +56,8 @@ def _instances(design: dict) -> dict[str, tuple[str, str]]:
 
 def measure(configuration: Configuration, technology: Technology, folder: Path, seed: int,
             say: Callable[[str], None]) -> list[Part]:
-    """Parts of the columns, then of the engine, by name; FlowError if the netlist is not its RTL or a step fails."""
+    """Area and power of the parts of the columns, then of the engine, by name. FlowError if the netlist differs from its RTL or a step
+    fails."""
     library = technology.typical
     group = liberty.read(library.path)
     internal = activity.internal_energies(group, library.energy_fj)

@@ -21,7 +21,7 @@ DETECTION_RATE = 0.25  # share of TDC slots that hold a detection
 
 @dataclass(frozen=True)
 class Power:
-    """mW of the array."""
+    """Power of the array, mW."""
 
     logic: float
     sram: float
@@ -34,7 +34,7 @@ class Power:
 
 @dataclass(frozen=True)
 class ClockTree:
-    """Estimate: buffers of the largest kind, each level filled to its share of the load below it."""
+    """Estimated clock tree: buffers of the largest kind; each level is filled to a share of its load limit."""
 
     buffers: int
     area: float
@@ -56,7 +56,7 @@ def clock_tree(flip_flops: int, pins_ff: float, library: Library) -> ClockTree:
 
 @dataclass(frozen=True)
 class _Sums:
-    """W of some cells."""
+    """Power sums of some cells, W."""
 
     internal: float
     switching: float
@@ -64,7 +64,7 @@ class _Sums:
 
 
 def _sums(output: str, label: str, group: str) -> _Sums:
-    """What synth/sta/cell_power.tcl printed. OpenSTA of 2019 adds rise and fall energy for every transition, so its internal
+    """Power sums in the output of synth/sta/cell_power.tcl. OpenSTA of 2019 adds rise and fall energy for every transition, so its internal
     power is twice the power and is halved here; test_flow_checks.py pins that behaviour."""
     found = found_in("OpenSTA", rf"^DTOF_POWER {label} {group} (\S+) (\S+) (\S+)$", output)
     internal, switching, leakage = (float(number) for number in found.groups())
@@ -72,26 +72,26 @@ def _sums(output: str, label: str, group: str) -> _Sums:
 
 
 def _array(output: str, label: str, modules: int) -> _Sums:
-    """One column module times all of them, plus everything outside."""
+    """Sums of the array: one column module times their number, plus everything outside."""
     column, shared = _sums(output, label, "column"), _sums(output, label, "shared")
     return _Sums(modules * column.internal + shared.internal, modules * column.switching + shared.switching,
                  modules * column.leakage + shared.leakage)
 
 
 def logic_mw(output: str, modules: int) -> float:
-    """Logic without the clock."""
+    """Power of the logic without the clock, mW."""
     everything, clock = (_array(output, label, modules) for label in ("ALL", "CLOCK"))
     return (everything.internal - clock.internal + everything.switching + everything.leakage) * 1e3
 
 
 def data_mw(output: str) -> float:
-    """What the data of one column's cells take: all of it less that with idle data, without leakage."""
+    """Power of one column's data nets, mW: total minus that with idle data, without leakage."""
     everything, clock = (_sums(output, label, "column") for label in ("ALL", "CLOCK"))
     return (everything.internal + everything.switching - clock.internal - clock.switching) * 1e3
 
 
 def clock_mw(output: str, modules: int, tree: ClockTree, library: Library, mhz: float) -> float:
-    """Clock pins inside the flip-flops, and the tree's wires and pins, charged once per clock."""
+    """Power of the flip-flops' clock pins and of the tree's wires and pins, charged once per clock, mW."""
     return _array(output, "CLOCK", modules).internal * 1e3 + tree.load_ff * library.voltage**2 * mhz * 1e-6
 
 
@@ -109,7 +109,7 @@ def access_rates(configuration: Configuration) -> dict[str, tuple[float, float]]
 
 
 def sram_mw(configuration: Configuration, mhz: float) -> float:
-    """All SRAMs of all columns."""
+    """Power of all SRAMs of all columns, mW."""
     rates = access_rates(configuration)
     total = 0.0
     for use, size in memories(configuration).items():

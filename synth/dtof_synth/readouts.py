@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The read-outs and parameters of readouts.toml, the one description from which everything else is written."""
+"""Read-outs and parameters of readouts.toml, from which all other descriptions are generated."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Expression = int | str
 
 
 def evaluate(expression: Expression, values: Mapping[str, int]) -> int:
-    """The value of an expression of readouts.toml; `values` has the parameters that it names."""
+    """Value of an expression of readouts.toml. `values`: the parameters that it names."""
 
     def value(node: ast.expr) -> int:
         match node:
@@ -59,7 +59,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Readout:
-    """One read-out as the file describes it."""
+    """A read-out as in the file."""
 
     name: str
     title: str
@@ -89,7 +89,7 @@ class Readout:
 
     @property
     def constant(self) -> str:
-        """Name of its number in SystemVerilog."""
+        """Name of the read-out's number in SystemVerilog."""
         return f"READOUT_{self.name.upper().replace('-', '_')}"
 
 
@@ -108,12 +108,12 @@ class Table:
     readouts: dict[str, Readout]
 
     def default(self, readout: str, parameter: str, np: int) -> int:
-        """What a read-out has where nothing else is said; no default depends on more than NP."""
+        """Default value of a parameter for a read-out. Defaults depend on NP at most."""
         expression = self.readouts[readout].defaults.get(parameter, self.parameters[parameter].default)
         return evaluate(expression, {"NP": np})
 
     def defaults(self, readout: str) -> dict[str, int]:
-        """All parameters of the read-out's top."""
+        """Default values of all parameters of the read-out's top."""
         np = int(self.parameters["NP"].default)
         return {name: self.default(readout, name, np) for name in self.tops[self.readouts[readout].top].parameters}
 

@@ -110,7 +110,7 @@ def _placed_section(results: list[Result]) -> str:
 
 
 def _doubtful_section(results: list[Result]) -> str:
-    """Macros whose organisation or width the public points do not cover, and what the arrays would be without."""
+    """Section on macros whose organisation or width the public points do not cover, with the arrays' areas without them."""
     sizes = area_parts.doubtful_macros(results)
     if not sizes:
         return "No macro lacks a column multiplexer or is wider than the fitted points.\n"
@@ -282,7 +282,7 @@ def write_timing_csv(path: Path, results: dict[str, Result]) -> None:
 
 
 def summary(results: dict[str, Result]) -> str:
-    """The table that the command prints."""
+    """Table that the command prints."""
     lines = [f"{'configuration':<26}{'logic':>8}{'shared':>8}{'SRAM':>8}{'total':>9}{'thesis':>8}"
              f"{'slack':>8}{'fmax':>6}{'fmax':>6}{'assumed':>8}",
              f"{'':<26}{'um2/col':>8}{'um2':>8}{'um2/col':>8}{'mm2':>9}{'mm2':>8}"

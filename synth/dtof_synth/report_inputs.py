@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the flow's reports are measured on, noted and recorded as for every report of the project (scripts/figures)."""
+"""Notes and records the inputs of the flow's reports, as for every report of the project (scripts/figures)."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ FLOW = "synthesis"  # group of inputs
 
 
 def begin(name: str) -> str:
-    """Before a report is measured: the digest of its inputs."""
+    """Notes the inputs before a report is measured; returns their digest."""
     return staleness.begin(ROOT, reports.load(ROOT)[name], SourceTree(ROOT))
 
 
 def record(name: str) -> None:
-    """After the report's files are written."""
+    """Records the inputs after the report's files are written."""
     subprocess.run([sys.executable, ROOT / "scripts" / "reports.py", "record", name], check=True)
 
 
 def flow_digest(root: Path) -> str:
-    """Digest of RTL, constraints, and all that the flow runs."""
+    """Digest of RTL, constraints, and everything that the flow runs."""
     return reports.group(root, FLOW, SourceTree(root)).digest

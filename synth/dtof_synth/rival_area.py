@@ -31,7 +31,7 @@ FREEZING = ("hispointer", "sifh", "fifh", "threesteps", "histogram", "coarsehist
 
 @dataclass(frozen=True)
 class Hardware:
-    """Hardware of one pixel's memory and of its column (studies/rivals/models/rival.hpp, RivalHardware)."""
+    """Hardware of a pixel's memory and of its column (RivalHardware in studies/rivals/models/rival.hpp)."""
 
     words: int
     word_bits: int
@@ -47,19 +47,19 @@ def _cell_um2(name: str) -> float:
 
 
 def bit_um2() -> float:
-    """Logic of one bit of a word that timestamps change."""
+    """Area of the logic for one bit of a word that timestamps change, um2."""
     flip_flop = standard_cells.sequential_pitches("DFF") * standard_cells.PITCH_AREA_UM2
     return 2 * flip_flop + _cell_um2("FA_X1") + _cell_um2("MUX2_X1")
 
 
 def flag_um2() -> float:
-    """A pixel's flag: a flip-flop, the choice of the pixel, and its part of the OR of all chosen flags."""
+    """Area of a pixel's flag, um2: a flip-flop, the selection of the pixel, and its part of the OR of all selected flags."""
     flip_flop = standard_cells.sequential_pitches("DFF") * standard_cells.PITCH_AREA_UM2
     return flip_flop + 2 * _cell_um2("AND2_X1") + _cell_um2("OR2_X1")
 
 
 def sram_um2(rows: int, hardware: Hardware) -> float:
-    """The smallest of 1 to MOST_MACROS macros side by side."""
+    """Area of the smallest of 1 to MOST_MACROS macros side by side, um2."""
     ports = 1 if hardware.words == 1 else 2
     areas = []
     for macros in range(1, MOST_MACROS + 1):
@@ -71,7 +71,7 @@ def sram_um2(rows: int, hardware: Hardware) -> float:
 
 @dataclass(frozen=True)
 class Base:
-    """What all estimates start from, of the configuration SMALLEST in reports/area.csv."""
+    """Base of all estimates: figures of the configuration SMALLEST in reports/area.csv."""
 
     column_um2: float  # without the bits of its word
     shared_um2: float
@@ -97,7 +97,7 @@ def array_mm2(base: Base, hardware: Hardware, columns: int, rows: int) -> float:
 
 @dataclass(frozen=True)
 class Beside:
-    """The estimate for a read-out whose RTL was synthesised."""
+    """The estimate for a read-out with synthesised RTL, for comparison."""
 
     title: str
     estimated_mm2: float
@@ -105,7 +105,7 @@ class Beside:
 
 
 def beside_synthesis(area: Path, configurations: Path) -> list[Beside]:
-    """The thesis's read-outs: their SRAMs, the estimate's logic for one word of each, and a flag a pixel where histograms freeze."""
+    """Estimates for the thesis's read-outs: their SRAMs, logic for one word of each, and a flag per pixel if histograms freeze."""
     base = Base.read(area)
     known = load(configurations)
     found = []

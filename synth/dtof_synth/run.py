@@ -38,9 +38,8 @@ WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": fl
 
 @dataclass(frozen=True)
 class Effort:
-    """How hard ABC tries: its delay target as a share of the period (clock-to-data, setup, uncertainty and the late broadcast
-    signals, of which ABC knows nothing, take the rest), and its scripts for the column, which the array has many times, and for
-    what the columns share."""
+    """Effort of ABC: its delay target as a share of the period, and its scripts for the column (which occurs many times) and for the shared
+    logic. The rest of the period covers clock-to-data, setup, uncertainty and the late broadcast signals, which ABC does not model."""
 
     share: float
     column: str
@@ -70,8 +69,8 @@ def efforts(configuration: Configuration) -> tuple[Effort, ...]:
 
 @dataclass(frozen=True)
 class Technology:
-    """Everything a run needs besides the RTL. `slow` is the library that logic is mapped against, `target_mhz` the
-    clock that it is mapped for. Without `fast` nothing is timed with margins."""
+    """Everything that a run needs besides the RTL. `slow`: library against which logic is mapped; `target_mhz`: clock for which it is
+    mapped. Without `fast` nothing is timed with margins."""
 
     typical: Library
     slow: Library
@@ -124,7 +123,7 @@ class Result:
 
     @property
     def total_mm2(self) -> float:
-        """Columns, shared logic, engines; the clock tree is an estimate and reported apart."""
+        """Area of columns, shared logic and engines, mm2. The clock tree is an estimate and reported separately."""
         return ((self.column.area + self.sram_area) * self.columns + self.shared.area + self.engine_sram_area) / 1e6
 
     @property
@@ -136,7 +135,7 @@ class Result:
 
 
 def rtl_files(root: Path) -> list[Path]:
-    """hdl/dtof.f without the behavioural technology; leaf first."""
+    """RTL files of hdl/dtof.f without the behavioural technology; modules come after the modules that they contain."""
     listing = root / "hdl" / "dtof.f"
     try:
         lines = listing.read_text(encoding="utf-8").splitlines()
@@ -147,7 +146,7 @@ def rtl_files(root: Path) -> list[Path]:
 
 
 def to_generic(root: Path, settings: Path, folder: Path, name: str) -> None:
-    """The RTL below `root` that the settings name to `folder`/generic.il, checks passed, by way of `folder`/elaborated.il."""
+    """Turns the RTL that the settings name, below `root`, into `folder`/generic.il by way of `folder`/elaborated.il. Checks must pass."""
     elaborated = folder / "elaborated.il"
     scripts = Path(__file__).resolve().parents[1] / "yosys"
     tools.run_yosys(scripts / "elaborate.tcl", settings, folder / "elaborate.log", name)
@@ -156,8 +155,8 @@ def to_generic(root: Path, settings: Path, folder: Path, name: str) -> None:
 
 
 def elaborate(configuration: Configuration, technology: Technology, folder: Path, kept_modules: Iterable[str] = ()) -> None:
-    """RTL to the technology-independent netlist generic.il with clock gates, checks passed. `kept_modules` are not flattened
-    into what is around them, as columns, pairs and engines never are."""
+    """Turns the RTL into the technology-independent netlist generic.il with clock gates. Checks must pass. `kept_modules` are not flattened
+    into their surroundings; columns, pairs and engines never are."""
     folder.mkdir(parents=True, exist_ok=True)
     scripts = technology.root / "synth" / "yosys"
     settings = folder / "generic_settings.tcl"
@@ -176,8 +175,8 @@ def elaborate(configuration: Configuration, technology: Technology, folder: Path
 
 
 def map_to_cells(configuration: Configuration, technology: Technology, folder: Path, effort: Effort, naming: int = 0) -> dict:
-    """generic.il to the mapped design, checks passed. `naming`: 0 keeps the names of cells and wires, another number scrambles
-    them, which changes what ABC finds (namings.py)."""
+    """Maps generic.il to cells; returns the design. Checks must pass. `naming`: 0 keeps the names of cells and wires; another number
+    scrambles them, which changes ABC's result (namings.py)."""
     library = technology.slow
     inverter_ff = next(iter(library.input_ff[library.inverter].values()))
     constraints = folder / "abc.constr"
@@ -212,7 +211,7 @@ def _resize_settings(folder: Path, library: Library, guard_ns: float = RESIZE_GU
 
 @dataclass(frozen=True)
 class Resized:
-    """What resizing came to."""
+    """Result of resizing."""
 
     changed: bool
     slack: float  # with margins, of the first engine and its columns, ns
@@ -223,8 +222,8 @@ STAND_IN_LIBERTY = "stand_in.lib"  # in the folder of a netlist
 
 @dataclass(frozen=True)
 class _Netlist:
-    """What is timed: the design, where its cells stand, and the folder of its files. OpenSTA reads it with stand-ins for all columns
-    but `real`."""
+    """A netlist to be timed: the design, the positions of its cells, and the folder of its files. OpenSTA reads it with stand-ins for all
+    columns except `real`."""
 
     design: dict
     plan: floorplan.Floorplan
@@ -238,8 +237,8 @@ class _Netlist:
     cut: set[str] = field(default_factory=set)  # pins in it of which real columns have the paths
 
     def prepare(self) -> None:
-        """Plain names, drives that suffice for the wires between blocks, and a choice of the columns that stay: the first ones and the
-        last. Writes what cells were called."""
+        """Gives cells plain names, gives them enough drive for the wires between blocks, and selects the real columns: the first ones and
+        the last. Writes the cells' previous names."""
         self.folder.mkdir(exist_ok=True)
         self.called.update(spef.plain_names(self.design))
         self.plan.rename(self.called[self.configuration.top])
@@ -252,7 +251,7 @@ class _Netlist:
         self.write()
 
     def write(self) -> None:
-        """The files that OpenSTA reads. The wires between the blocks give nets names, so that the netlist is written behind them."""
+        """Writes the files that OpenSTA reads. The wires between blocks name nets, so the netlist is written after them."""
         timed, stand = self._write(None)
         self.written.clear()
         self.written.update(timed)
@@ -260,7 +259,7 @@ class _Netlist:
         self.cut.update(f"{name}/{pin}" for name in netlist.columns(self.design) if name not in self.real for pin in stand.cut)
 
     def _write(self, bordered: list[str] | None) -> tuple[dict, stand_in.StandIn]:
-        """With stand-ins as stand_in.timed has them."""
+        """Writes the netlist with stand-ins by stand_in.timed."""
         library = self.technology.slow
         timed, stand = stand_in.timed(self.design, self.real, library, floorplan.pin_load(library, sram_kit.PIN_FF), bordered)
         (self.folder / STAND_IN_LIBERTY).write_text(stand_in.liberty(stand, self.technology.typical.voltage), encoding="utf-8")
@@ -277,16 +276,16 @@ class _Netlist:
         return timed, stand
 
     def _kinds(self) -> list[str]:
-        """Modules of the blocks: the column's, and the engine's where there are engines."""
+        """Modules of the blocks: the column's, and the engine's if there are engines."""
         return [kind for kind in (netlist.column_module(self.design), netlist.engine_module(self.design)) if kind]
 
     def _first_columns(self) -> list[str]:
-        """Those that share the first engine, or as many without engines."""
+        """Columns that share the first engine; without engines the same number."""
         number = -(-(self.configuration.engine_columns or RESIZED_COLUMNS) // self.configuration.module_columns)
         return sorted(netlist.columns(self.design), key=lambda name: self.plan[name])[:number]
 
     def write_wires(self, timed: dict) -> None:
-        """The wires between the blocks in all corners."""
+        """Writes the wires between blocks for all corners."""
         clocks = netlist.clock_nets(netlist.top(timed))
         kinds = list(dict.fromkeys(WIRES.values()))
         texts = dict(zip(kinds, spef.write(timed, self.plan, self.technology.slow, kinds, clocks)))
@@ -294,8 +293,8 @@ class _Netlist:
             (self.folder / f"wires_{corner}.spef").write_text(texts[kind], encoding="utf-8")
 
     def time(self, corner: str, *steps: str, **settings: tools.Setting) -> timing.Report:
-        """The steps of synth/sta/timing.tcl in one corner, with their settings. FlowError if an end of a path is not timed and none
-        of the reasons in endpoints.py is why."""
+        """Runs the steps of synth/sta/timing.tcl in one corner, with their settings. FlowError if an end of a path is not timed for none of
+        the reasons in endpoints.py."""
         library = self.technology.library(corner)
         files = timing.Netlist(
             f"{self.configuration.name}, {corner} corner", self.folder / "timing.v", self.folder / f"wires_{corner}.spef",
@@ -311,13 +310,13 @@ class _Netlist:
         return report
 
     def endpoints(self, report: timing.Report) -> endpoints.Endpoints:
-        """Judges the ends of paths in a report that has the step `check`."""
+        """Judges the ends of paths in a report that includes the step `check`."""
         return endpoints.judge(self.configuration.name, report.unchecked, self.written, self.technology.slow, self.cut)
 
     def resize(self, again: bool, guard_ns: float = RESIZE_GUARD_NS) -> Resized:
-        """Gives gates on paths that fail in the slow corner with margins more drive and, but for doing it `again`, others less, and
-        takes out the buffers of mapping that no path needs. It looks at the first engine with its columns alone, for each trial is
-        timed anew. `guard_ns`: the slack that it aims at there, for other engines may have less."""
+        """Resizes gates in the slow corner with margins. Gates on failing paths get more drive. Except with `again`, other gates get less
+        drive, and mapping buffers that no path needs are removed. Only the first engine with its columns is examined, because each trial is
+        timed anew. `guard_ns`: target slack there, since other engines may have less."""
         library = self.technology.slow
         self._write(self._first_columns())
         kinds = self._kinds()
@@ -339,14 +338,14 @@ class _Netlist:
         return Resized(bool(report.resized or report.dropped), report.resized_slack)
 
     def early_pins(self, report: timing.Report) -> list[str]:
-        """Those of paths that are too early, in all blocks of a kind."""
+        """Pins of paths that are too early, in all blocks of a kind."""
         pins = {netlist.local_pin(self.design, pin) for path in report.early for pin in path.pins}
         return [name for pin in sorted(pins) for name in netlist.in_all_blocks(self.design, pin)
                 if netlist.has_pin(self.written, name)]
 
     def fix_hold(self, report: timing.Report, slacks: dict[str, float]) -> Margin:
-        """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner. `report`:
-        of that corner before; `slacks`: what pins have to spare in the slow one."""
+        """Delays paths that are too early in the fast corner with margins, in at most HOLD_ROUNDS rounds; returns that corner. `report`:
+        report of that corner before; `slacks`: slacks of pins in the slow corner."""
         spare: dict[Pin, float] = {}
         for name, slack in slacks.items():
             pin = netlist.local_pin(self.design, name)
@@ -368,14 +367,14 @@ class _Netlist:
         return report.margin()
 
     def check_logic(self) -> None:
-        """FlowError unless the design computes what was mapped."""
+        """FlowError unless the design computes the mapped logic."""
         try:
             same_logic.check(self.mapped, same_logic.of(self.design, self.technology.slow, self.called))
         except FlowError as error:
             raise FlowError(f"{self.configuration.name}: {error}") from None
 
     def finished_column(self) -> dict:
-        """The module that stands in the array, its gates sized and its hold buffers in it."""
+        """The column module of the array with its final gates and hold buffers."""
         return netlist.modules(self.design)[netlist.column_module(self.design)]
 
     def counts(self) -> tuple[Counts, Counts, Counts]:
@@ -394,15 +393,15 @@ Pin = tuple[str, str, str]  # kind of block, cell, pin
 
 
 def _last_free_pin(path: list[Pin], spare: dict[Pin, float], buffers: int) -> Pin:
-    """The last pin of an early path that has so many buffers' delay to spare; the one with most, where none has. A pin of which
-    nothing is known has none."""
+    """The last pin of an early path whose slack allows the delay of `buffers` buffers; if none does, the pin with the largest slack. An
+    unknown pin has no slack."""
     return next((pin for pin in reversed(path) if spare.get(pin, 0.0) >= buffers * HOLD_BUFFER_SLOW_NS),
                 max(path, key=lambda pin: spare.get(pin, 0.0)))
 
 
 @dataclass(frozen=True)
 class _Attempt:
-    """Mapped with one effort and timed in the slow corner."""
+    """A design mapped with one effort and timed in the slow corner."""
 
     netlist: _Netlist
     effort: int
@@ -417,7 +416,7 @@ class _Attempt:
 
     @property
     def rank(self) -> float:
-        """By how much it closes."""
+        """The smaller of slack - DEMANDED_SLACK_NS and the slack with margins, ns. Timing closes if it is at least 0."""
         return min(self.slack - DEMANDED_SLACK_NS, self.margin.slack if self.margin is not None else math.inf)
 
 
@@ -452,7 +451,7 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
 
 
 def _attempts(configuration: Configuration, technology: Technology, folder: Path, most: int | None, naming: int) -> list[_Attempt]:
-    """Effort after effort until one closes."""
+    """Attempts with increasing effort until one closes."""
     attempts: list[_Attempt] = []
     for number in range(len(efforts(configuration)[:most])):
         attempts.append(_attempt(configuration, technology, folder, number, naming))
@@ -462,7 +461,7 @@ def _attempts(configuration: Configuration, technology: Technology, folder: Path
 
 
 def _best(attempts: list[_Attempt]) -> _Attempt:
-    """The smallest that closes, else the one that misses least."""
+    """The smallest attempt that closes, else the one that misses by least."""
     closing = [attempt for attempt in attempts if attempt.closes_with_margins]
     return min(closing, key=lambda attempt: attempt.netlist.cell_area()) if closing \
         else max(attempts, key=lambda attempt: attempt.rank)
@@ -470,8 +469,8 @@ def _best(attempts: list[_Attempt]) -> _Attempt:
 
 def run(configuration: Configuration, technology: Technology, folder: Path,
         corners: Iterable[str] = BOTH_CORNERS, most_attempts: int | None = None, naming: int = 0) -> Result:
-    """The whole flow of one configuration; FlowError at the first step that fails. The slow corner is always
-    timed: with further efforts until it closes with DEMANDED_SLACK_NS and with margins, else the best attempt stands."""
+    """Runs the whole flow of one configuration. FlowError at the first step that fails. The slow corner is always timed. Efforts increase
+    until it closes with DEMANDED_SLACK_NS and with margins; if none does, the best attempt counts."""
     elaborate(configuration, technology, folder)
     best = _best(_attempts(configuration, technology, folder, most_attempts, naming))
     timed = best.netlist
@@ -510,7 +509,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
 
 def retimed(result: Result, technology: Technology, folder: Path, cells: Path, srams: Path, log: str, steps: tuple[str, ...], how: str,
             netlist_file: str = "timing.v", settings: dict[str, tools.Setting] | None = None) -> timing.Report:
-    """The netlist that `run` left in `folder`, in the slow corner with other libraries. `how`: in messages."""
+    """Times the netlist that `run` left in `folder`, in the slow corner with other libraries. `how`: description for error messages."""
     effort = folder / f"effort{result.effort}"
     files = timing.Netlist(f"{result.configuration.name}, slow corner, {how}", effort / netlist_file, effort / "wires_slow.spef",
                            [cells, srams, effort / STAND_IN_LIBERTY], technology.slow.wire_load, result.configuration.top)
@@ -519,15 +518,15 @@ def retimed(result: Result, technology: Technology, folder: Path, cells: Path, s
 
 @dataclass(frozen=True)
 class Flat:
-    """Setup slacks with margins in the slow corner, ns: as `run` has it, and with every column real."""
+    """Setup slacks with margins in the slow corner, ns: from `run`, and with every column real."""
 
     with_stand_ins: float
     all_real: float
 
 
 def flat(result: Result, technology: Technology, folder: Path) -> Flat:
-    """A second way to the slack of the netlist that `run` left in `folder`. Stand-ins have the names of the columns' cells, so that the
-    wires are the same."""
+    """Computes the slack of the netlist that `run` left in `folder` in a second way, with every column real. Stand-ins have the names of
+    the columns' cells, so the wires are the same."""
     configuration = result.configuration
     effort = folder / f"effort{result.effort}"
     text = (effort / "timing.v").read_text(encoding="utf-8")
@@ -543,8 +542,8 @@ def flat(result: Result, technology: Technology, folder: Path) -> Flat:
 
 @dataclass(frozen=True)
 class OtherWires:
-    """Setup slacks in the slow corner, ns, with another length of wire inside columns, engines and control: as the array is,
-    without and with margins, and with margins once gates are resized for these wires, which adds `added_mm2`."""
+    """Setup slacks in the slow corner, ns, with another wire length inside columns, engines and control. For the array as it is: without
+    and with margins. For gates resized for these wires: with margins; resizing adds `added_mm2`."""
 
     slack: float
     with_margins: float
@@ -568,7 +567,7 @@ def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink
 
 
 def input_digest(technology: Technology) -> str:
-    """Hash of everything but the parameters that a run's result depends on: the flow, and the libraries that it has made."""
+    """Hash of all inputs of a run except the parameters: the flow, and the libraries that it has made."""
     digest = hashlib.sha256(report_inputs.flow_digest(technology.root).encode())
     for file in sorted({*technology.kit.iterdir(), technology.typical.path, technology.slow.path}, key=lambda file: file.name):
         digest.update(file.name.encode())

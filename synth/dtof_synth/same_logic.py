@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the steps behind mapping may change: they put in buffers and copies of registers, and give cells other drives.
-Everything else of the netlist that is counted and timed must be as it was mapped, and as `make sim-netlist` simulates it.
+"""Checks that the steps after mapping keep the logic: they may insert buffers, copy registers and change drives. Everything else in the
+counted and timed netlist must be as mapped, and as `make sim-netlist` simulates it.
 
-A module's logic is, for each cell that is no buffer, what it computes and where each of its inputs comes from once buffers
-are looked through and a copied register stands for its original; and the same for each output of the module.
+The logic of a module is, for each cell that is no buffer, its function and the sources of its inputs, and the source of each output of the
+module. Sources are found by looking through buffers and by taking the original in place of a copied register.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Logic = dict[str, dict[str, tuple]]  # of each module: what its cells and output
 
 @dataclass(frozen=True)
 class _Reader:
-    """One module. `name_of`: what a cell was called when it was mapped."""
+    """Logic of one module. `name_of`: name of each cell when it was mapped."""
 
     module: Module
     library: Library
@@ -33,7 +33,7 @@ class _Reader:
     column: str
 
     def _original(self, cell: str) -> str:
-        """What a cell is a copy of, or itself."""
+        """The cell of which this cell is a copy, or the cell itself."""
         return re.sub(rf"{COPY_SUFFIX}\d+$", "", self.name_of(cell))
 
     def read(self) -> dict[str, tuple]:
@@ -80,8 +80,8 @@ def _called(names: Mapping[str, str]) -> Callable[[str], str]:
 
 
 def of(design: dict, library: Library, called: Mapping[str, Mapping[str, str]] | None = None) -> Logic:
-    """`called`: what the cells of each module were called when they were mapped, if they have other names now. FlowError if a
-    register's copy is none."""
+    """Logic of a design. `called`: names of each module's cells when they were mapped, if they have changed. FlowError if a copy of a
+    register differs from its original."""
     family = {kind: kinds[0] for kinds in library.drives for kind in kinds}
     column = netlist.column_module(design)
     logic: Logic = {}
@@ -92,7 +92,7 @@ def of(design: dict, library: Library, called: Mapping[str, Mapping[str, str]] |
 
 
 def check(mapped: Logic, finished: Logic) -> None:
-    """FlowError that names a difference."""
+    """FlowError that names the first difference, if there is one."""
     for module in sorted(mapped.keys() | finished.keys()):
         before, after = mapped.get(module, {}), finished.get(module, {})
         for name in sorted(before.keys() | after.keys()):

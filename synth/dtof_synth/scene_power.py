@@ -40,7 +40,7 @@ GOALS_MW = {"poolpointer": 200.0, "ezpointer_one_port": 70.0, "hispointer": 150.
 
 @dataclass(frozen=True)
 class Parts:
-    """mW of the whole array in one phase."""
+    """Power of the whole array in one phase, mW."""
 
     columns: float
     engines: float
@@ -91,7 +91,7 @@ class ScenePower:
 
 
 def small(configuration: Configuration) -> Configuration:
-    """One column module with all its pixels, one engine."""
+    """Small array of a configuration: one column module with all its pixels, one engine."""
     sizes = {"SRAM_NUM": 4, "ENGINE_COLUMNS": 4} if configuration.is_pool else {"SRAM_NUM": 1}
     return configuration.with_parameters(configuration.name, **sizes)
 
@@ -109,7 +109,7 @@ def _write_verilog(design: dict, technology: Technology, folder: Path, name: str
 
 
 def uniform_mw(configuration: Configuration, technology: Technology, folder: Path, rate: float) -> float:
-    """OpenSTA's power of all columns' logic, which knows one rate for all data nets and no waveform."""
+    """OpenSTA's power of all columns' logic, mW, with one toggle rate for all data nets instead of a waveform."""
     library = technology.typical
     settings = folder / "power_settings.tcl"
     tools.write_settings(settings, {
@@ -122,13 +122,13 @@ def uniform_mw(configuration: Configuration, technology: Technology, folder: Pat
 
 
 def small_case(configuration: Configuration, seed: int) -> simulation.Case:
-    """The frame of the small array."""
+    """Frame of the small array."""
     return simulation.Case(small(configuration), (ACQUISITIONS,), seed)
 
 
 def count_activity(design: dict, case: simulation.Case, technology: Technology, folder: Path, klux: float) -> Activity:
-    """The small array's netlist on the scene, checked against RTL and model while it is counted. The design's nets and modules
-    are renamed."""
+    """Simulates the small array's netlist on the scene, compares it with RTL and model, and counts its activity. Renames the design's nets
+    and modules."""
     root = technology.root
     activity.name_for_counting(design)
     files = simulation.write_simulation_netlist(design, case.configuration, technology, folder, case.seed)
@@ -165,7 +165,7 @@ def count_activity(design: dict, case: simulation.Case, technology: Technology, 
 
 def simulate(configuration: Configuration, finished_column: dict, technology: Technology, folder: Path, klux: float,
              seed: int) -> tuple[dict, Activity]:
-    """The small array through the flow, the whole array's column in it, and its activity."""
+    """Runs the small array through the flow, with the whole array's column in it; returns the design and its activity."""
     case = small_case(configuration, seed)
     elaborate(case.configuration, technology, folder)
     # A search over names of a pool read-out's engine and pair would take longer than the simulation.
@@ -186,7 +186,8 @@ def _area(library: Library, module: dict) -> float:
 
 def power(configuration: Configuration, light: str, result: Result, run_folder: Path, technology: Technology, folder: Path,
           seed: int) -> ScenePower:
-    """`run_folder`: of the run that `result` is of. FlowError if the netlist is not its RTL, or a step of the flow fails."""
+    """Power of one configuration in one light. `run_folder`: folder of the run with `result`. FlowError if the netlist differs from its
+    RTL, or a step of the flow fails."""
     finished_column = json.loads((run_folder / FINISHED_COLUMN).read_text(encoding="utf-8"))
     design, counted = simulate(configuration, finished_column, technology, folder, KLUX[light], seed)
     library = technology.typical
@@ -238,7 +239,7 @@ def power(configuration: Configuration, light: str, result: Result, run_folder: 
 
 
 def report(found: list[ScenePower], results: dict[str, Result], digest: str, seed: int) -> str:
-    """Markdown."""
+    """The report in Markdown."""
     lines = ["# Power on a scene", "",
              f"Written by `make power`: the netlist of one column module, the one of [timing.md](timing.md), with "
              f"{ACQUISITIONS} acquisitions of the scene "
@@ -281,7 +282,7 @@ def report(found: list[ScenePower], results: dict[str, Result], digest: str, see
 
 
 def wide_word_lines(found: list[ScenePower]) -> list[str]:
-    """What the arrays with wide words would take if the energy of a read grew with the bits as CACTI's does."""
+    """Lines on the power of arrays with wide words if the energy of a read grew with the bits as in CACTI."""
     bits = {one.configuration.name: max(size.bits for size in memories(one.configuration).values()) for one in found}
     wide = [one for one in found if bits[one.configuration.name] > wide_words.FITTED_BITS]
     if not wide:
@@ -314,8 +315,7 @@ def write_csv(path: Path, found: list[ScenePower]) -> None:
 
 def run(chosen: list[Configuration], results: dict[str, Result], run_folders: Path, technology: Technology, folder: Path,
         seed: int, workers: int, say: Callable[[str], None]) -> list[ScenePower]:
-    """All chosen configurations in all lights, `workers` at a time; the longest first. The first failure stops
-    everything."""
+    """Power of all chosen configurations in all lights, `workers` at a time, the longest first. The first failure stops all."""
     tasks = [(configuration, light) for configuration in chosen for light in KLUX]
     found: dict[tuple[str, str], ScenePower] = {}
     with ProcessPoolExecutor(workers) as pool:

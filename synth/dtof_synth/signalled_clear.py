@@ -17,7 +17,7 @@ APPLIES_TO = ("hispointer", "fifh", "sifh")
 
 
 def configurations(named: dict[str, Configuration]) -> list[Configuration]:
-    """FiFH columns of 4 and 8 pixels, with and without status bits."""
+    """FiFH columns of 4 and 8 pixels, each with and without status bits."""
     base = named[READOUT]
     return [base.with_parameters(f"{READOUT}_clear{signalled}_pixels{pixels}", PIXELS_PER_SRAM=pixels,
                                  SIGNALLED_CLEAR=signalled)
@@ -29,7 +29,7 @@ def jobs(named: dict[str, Configuration]) -> list[Job]:
 
 
 def area_per_bit(named: dict[str, Configuration], results: dict[str, Result]) -> float:
-    """um2 of logic a status bit."""
+    """Area of the logic per status bit, um2."""
     areas = {(item["PIXELS_PER_SRAM"], item["SIGNALLED_CLEAR"]): results[item.name].column.area
              for item in configurations(named)}
     low, high = ((areas[pixels, 1] - areas[pixels, 0]) for pixels in PIXELS)
@@ -39,7 +39,7 @@ def area_per_bit(named: dict[str, Configuration], results: dict[str, Result]) ->
 
 
 def section(named: dict[str, Configuration], results: dict[str, Result]) -> str:
-    """Markdown: the price of the signalled clear in the thesis's array."""
+    """Section in Markdown: area of the signalled clear in the thesis's array."""
     bit = area_per_bit(named, results)
     lines = ["## Signalled clear", "",
              f"One status bit an address costs {bit:.2f} um2 (measured on FiFH columns of {PIXELS[0]} and "

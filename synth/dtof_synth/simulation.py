@@ -51,7 +51,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a simulation that found no failure did."""
+    """Figures of a simulation without failures."""
 
     frames: int
     results: int
@@ -60,20 +60,20 @@ class Outcome:
 
 
 def expected_rank(configuration: Configuration) -> int:
-    """Configurations whose simulation takes longest come first."""
+    """Sort key: configurations with the longest simulations first."""
     return 0 if configuration.is_pool else 1 if configuration.readout in ("histogram", "pifh") else 2
 
 
 def short_frames(seed: int, count: int) -> tuple[int, ...]:
-    """0, 1 and 2 acquisitions, and some random frames; none of them first, so that each follows another."""
+    """Frames of 0, 1 and 2 acquisitions and some random frames. None of the short ones comes first, so that each follows another frame."""
     numbers = random.Random(seed)
     longer = [numbers.randint(*SHORT_FRAMES) for _ in range(count)]
     return (longer[0], 0, 1, 2, *longer[1:])
 
 
 def rtl_case(configuration: Configuration, seed: int, trace: Path | None = None) -> Case:
-    """The RTL alone, of three columns; of a pool read-out an engine with three pairs of columns and one with one, two
-    of which share an SRAM, two groups high."""
+    """Case for the RTL alone, with three columns. A pool read-out has an engine with three pairs of columns and one with one pair; two of
+    the pairs share an SRAM, and a column has two groups."""
     if configuration.is_pool:
         small = {"SRAM_NUM": 8, "ENGINE_COLUMNS": 6, "PIXELS_PER_SRAM": configuration["GROUP_SIZE"] + 2}
     else:
@@ -82,8 +82,8 @@ def rtl_case(configuration: Configuration, seed: int, trace: Path | None = None)
 
 
 def netlist_cases(configuration: Configuration, seed: int, trace: Path | None = None) -> list[Case]:
-    """The netlist beside the RTL. Three pixels are the fewest for which the histograms forward counts as they do in a
-    full array. A pool read-out's long frame has an array of its own, of two pixels and one engine, to save time."""
+    """Cases for the netlist beside the RTL. With three pixels, the fewest possible, histograms are forwarded as in a full array. A pool
+    read-out's long frame has a small array of its own (two pixels, one engine) to save time."""
     if not configuration.is_pool:
         small = configuration.with_parameters(configuration.name, SRAM_NUM=2, PIXELS_PER_SRAM=3)
         return [Case(small, (*short_frames(seed, 2), LONG_FRAME), seed, trace)]
@@ -94,14 +94,14 @@ def netlist_cases(configuration: Configuration, seed: int, trace: Path | None = 
 
 
 def full_case(configuration: Configuration, seed: int) -> Case:
-    """The netlist of the array in its full width, with few pixels in a column: a frame, and its start up to a reset."""
+    """Case for the netlist of the full-width array with few pixels per column: a frame, then the start of a frame up to a reset."""
     pixels = configuration["GROUP_SIZE"] + 2 if configuration.is_pool else 3
     return Case(configuration.with_parameters(configuration.name, PIXELS_PER_SRAM=pixels), (FULL_FRAME,), seed,
                 part="full width")
 
 
 def write_netlist(configuration: Configuration, technology: Technology, folder: Path, seed: int) -> tuple[Path, ...]:
-    """The configuration through the flow's own steps, its cells and macros as models; the Verilog files."""
+    """Runs a configuration through the flow's steps; writes netlist, cells and macros as Verilog and returns the files."""
     elaborate(configuration, technology, folder)
     design = map_to_cells(configuration, technology, folder, efforts(configuration)[0])
     floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration)
@@ -110,7 +110,7 @@ def write_netlist(configuration: Configuration, technology: Technology, folder: 
 
 def write_simulation_netlist(design: dict, configuration: Configuration, technology: Technology, folder: Path,
                              seed: int) -> tuple[Path, ...]:
-    """Verilog of a mapped design, of the cells that it uses and of its macros."""
+    """Writes Verilog of a mapped design, of the cells that it uses and of its macros."""
     drawn = random.Random(seed)
     kinds = netlist.cell_kinds(design, technology.slow)
     netlist.prepare_simulation(design, technology.slow, NETLIST_SUFFIX, cell_models.POWER_UP,
@@ -152,7 +152,7 @@ def _lines(path: Path) -> int:
 
 
 def write_vectors(case: Case, root: Path, folder: Path, options: tuple[str, ...] = ()) -> None:
-    """Stimulus and the model's results, by the program dtof-vectors with more `options`."""
+    """Writes stimulus and the model's results with the program dtof-vectors and additional `options`."""
     settings = [f"{name}={value}" for name, value in case.configuration.parameters.items()]
     _run([str(root / VECTORS), "--readout", case.configuration.readout, "--out", str(folder), "--seed",
           str(case.seed), "--acquisitions", *map(str, case.frames), *options, "--parameters", *settings], folder,
@@ -160,19 +160,19 @@ def write_vectors(case: Case, root: Path, folder: Path, options: tuple[str, ...]
 
 
 def bench_parameters(case: Case, folder: Path) -> dict[str, int]:
-    """Parameters of the bench: those of the array, and the lengths of the files that dtof-vectors wrote."""
+    """Parameters of the bench: those of the array, and the lengths of dtof-vectors' files."""
     return {**case.configuration.rtl_parameters(), "FRAMES": len(case.frames),
             "BEATS": max(1, _lines(folder / "timestamps.hex")), "SEED": case.seed}
 
 
 def bench_files(case: Case, root: Path) -> list[Path]:
-    """RTL, behavioural SRAMs and bench."""
+    """Files of the bench: RTL, behavioural SRAMs and the bench itself."""
     return [*rtl_files(root)[:1], *sorted((root / BEHAVIOURAL).glob("*.sv")), *rtl_files(root)[1:],
             root / BENCHES / "stream_bench.sv", root / BENCHES / f"{case.configuration.top}_bench.sv"]
 
 
 def outcome(output: str, case: Case, seconds: float) -> Outcome:
-    """FlowError with what the bench or an assertion of the RTL reported, unless all frames passed."""
+    """Judges a simulation. FlowError with the report of the bench or of an RTL assertion, unless all frames passed."""
     passed = re.search(r"^DTOF_PASS frames (\d+) results (\d+) clocks (\d+)$", output, re.MULTILINE)
     if passed and "ERROR" not in output and int(passed.group(1)) == len(case.frames):
         frames, results, clocks = map(int, passed.groups())
@@ -183,13 +183,13 @@ def outcome(output: str, case: Case, seconds: float) -> Outcome:
 
 
 def simulate_netlist(case: Case, technology: Technology, folder: Path) -> Outcome:
-    """From the RTL to the comparison of its netlist, in `folder`."""
+    """Makes a netlist from RTL and compares both, in `folder`."""
     return simulate(case, technology.root, folder, write_netlist(case.configuration, technology, folder, case.seed))
 
 
 def compile_bench(case: Case, root: Path, folder: Path, netlist_files: Sequence[Path] = (),
                   other_tops: Sequence[str] = ()) -> None:
-    """bench.vvp in `folder`; FlowError for any message of Icarus Verilog."""
+    """Compiles bench.vvp in `folder`. FlowError for any message of Icarus Verilog."""
     bench = f"{case.configuration.top}_bench"
     overrides = [f"-P{bench}.{name}={value}" for name, value in bench_parameters(case, folder).items()]
     tops = [word for top in (bench, *other_tops) for word in ("-s", top)]
@@ -201,7 +201,7 @@ def compile_bench(case: Case, root: Path, folder: Path, netlist_files: Sequence[
 
 
 def simulate(case: Case, root: Path, folder: Path, netlist_files: tuple[Path, ...] = ()) -> Outcome:
-    """Runs a case in `folder`; with `netlist_files` the netlist beside the RTL. FlowError at the first failure."""
+    """Simulates a case in `folder`; with `netlist_files`, the netlist beside the RTL. FlowError at the first failure."""
     started = time.monotonic()
     folder.mkdir(parents=True, exist_ok=True)
     write_vectors(case, root, folder)
@@ -221,7 +221,7 @@ def _separate_blocks(source: Path, blocks: list[str], written: Path) -> None:
 
 
 def simulate_full(case: Case, technology: Technology, folder: Path) -> Outcome:
-    """The netlist alone, two-state, in Verilator: for arrays that are too large for Icarus."""
+    """Simulates the netlist alone, two-state, in Verilator: for arrays too large for Icarus Verilog."""
     started = time.monotonic()
     root = technology.root
     source, *models = write_netlist(case.configuration, technology, folder, case.seed)
@@ -249,8 +249,8 @@ def simulate_full(case: Case, technology: Technology, folder: Path) -> Outcome:
 
 def run_all(cases: list[Case], work: Callable[[Case], Outcome], again: str, jobs: int,
             say: Callable[[str], None]) -> int:
-    """All cases, `jobs` at a time, in the order given; the number that failed. `again`: the command that repeats
-    one, with {name} and {seed}."""
+    """Runs all cases in the given order, `jobs` at a time; returns the number of failures. `again`: command that repeats a case, with
+    {name} and {seed}."""
     failed = 0
     with ProcessPoolExecutor(jobs) as pool:
         futures = {pool.submit(work, case): case for case in cases}

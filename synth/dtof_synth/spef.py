@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wires between the blocks of an array as SPEF, from the floorplan: what OpenSTA times them with.
+"""Wires between the blocks of an array as SPEF, from the floorplan, for OpenSTA.
 
-A wire runs from its driver along the row to its farthest sinks, with a piece of `Wire` between each two neighbours. Wires
-inside a block are the library's wire load, which stands at the pins here, since OpenSTA takes no wire load for a net that
-has a description of its own.
+A wire runs from its driver along the row to its farthest sinks, with a piece of `Wire` between any two neighbours. Wires inside a block
+have the library's wire load, which is put at the pins here, since OpenSTA applies no wire load to a net with a description of its own.
 """
 
 from __future__ import annotations
@@ -36,8 +35,8 @@ _HEADER = """*SPEF "IEEE 1481-1998"
 
 
 def plain_names(design: dict) -> dict[str, dict[str, str]]:
-    """Gives every cell of the design a name of letters, digits and underscores, which needs no escape in Verilog, SPEF
-    or a report; returns what each was called before, module by module."""
+    """Gives every cell a name of letters, digits and underscores, which needs no escape in Verilog, SPEF or a report. Returns the previous
+    names by module."""
     called: dict[str, dict[str, str]] = {}
     for kind, module in netlist.modules(design).items():
         before = called.setdefault(kind, {})
@@ -61,7 +60,7 @@ class _Pin:
 
 
 class Nets:
-    """The pins of the top's nets, inside columns and engines as well."""
+    """Pins of the top's nets, including those inside columns and engines."""
 
     def __init__(self, design: dict, plan: Floorplan, library: Library) -> None:
         self.design = design
@@ -70,7 +69,7 @@ class Nets:
         self.inside: dict[str, dict[int, list[tuple[str, bool]]]] = {}
 
     def _inside(self, kind: str) -> dict[int, list[tuple[str, bool]]]:
-        """(cell/pin, is an output) of every net of a module."""
+        """(cell/pin, whether it is an output) for every net of a module."""
         if kind not in self.inside:
             nets: dict[int, list[tuple[str, bool]]] = {}
             for name, cell in netlist.modules(self.design)[kind]["cells"].items():
@@ -115,7 +114,7 @@ def _bit(pin: str, index: int, bits: list) -> str:
 
 
 def _wire(net: str, rows: list[_Pin], wire: Wire) -> list[str]:
-    """One *D_NET: a row of nodes with the pins on them, from left to right."""
+    """One *D_NET: a row of nodes and their pins, from left to right."""
     pieces = [(left, right, right.place_um - left.place_um) for left, right in zip(rows, rows[1:])]
     caps = {pin.name: pin.wire_ff for pin in rows}
     for left, right, length in pieces:
@@ -141,8 +140,8 @@ def _node(pin: _Pin) -> str:
 
 
 def write(design: dict, plan: Floorplan, library: Library, wires: Iterable[Wire], skip: set[int]) -> list[str]:
-    """SPEF of the design as it is, columns replaced by stubs or not, with each kind of wire; gives each net that it
-    describes a name of its own. `skip` are clock nets."""
+    """SPEF of the design, with real columns or stand-ins, for each kind of wire. Gives each net that it describes a unique name. `skip`:
+    clock nets."""
     array: Module = netlist.top(design)
     ports = {bit: (name, index, port["bits"]) for name, port in array["ports"].items()
              for index, bit in enumerate(port["bits"])}

@@ -25,7 +25,7 @@ OUTPUT_DRIVE = 4
 
 
 def read_sizes(path: Path) -> list[Size]:
-    """The list of every size in use, sorted."""
+    """All sizes in use, sorted."""
     try:
         with path.open(newline="", encoding="utf-8") as file:
             lines = [line for line in csv.reader(file) if line and not line[0].startswith("#")]
@@ -48,7 +48,7 @@ def write_sizes(path: Path, sizes: list[Size]) -> None:
 
 
 def pins(size: Size) -> list[tuple[str, str, int]]:
-    """(name, direction, bits) of every pin, clock first; bits 0 is a scalar."""
+    """(name, direction, bits) of every pin, clock first; 0 bits: a scalar."""
     address = ("input", size.address_bits)
     data = size.bits
     if size.ports == 1:
@@ -70,7 +70,7 @@ def _constraints(macro: Macro) -> list[Group]:
 
 
 def _access_energy(macro: Macro) -> list[Group]:
-    """Energy of an access on the rising clock edge, fJ, under the port's own condition."""
+    """Energy of an access at the rising clock edge, fJ, under the port's condition."""
     read, write = ("en_i * !we_i", "en_i * we_i") if macro.size.ports == 1 else ("re_i", "we_i")
     return [Group("internal_power", [], [("when", f'"{when}"')],
                   [_scalar("rise_power", picojoules * 1000), _scalar("fall_power", 0)])
@@ -78,7 +78,7 @@ def _access_energy(macro: Macro) -> list[Group]:
 
 
 def _read_arc(access: float, corner: Corner) -> Group:
-    """Clock to data: the access time with a fan-out of 4, and an output driver of drive 4."""
+    """Timing arc from clock to data: the access time with a fan-out of 4, with an output driver of drive 4."""
     tau = FO4_NS / 5 * corner.gate
     loads = [OUTPUT_DRIVE * CINV_FF * multiple for multiple in (1, 4, 12, 24)]
     delays = [access + tau * (load / (OUTPUT_DRIVE * CINV_FF) - 4) for load in loads]
@@ -143,7 +143,7 @@ PIN_SIZE_UM = 0.14
 
 
 def lef(macros: list[Macro]) -> str:
-    """Abstracts: size, pins along the lower edge on metal4, obstruction below."""
+    """LEF abstracts: size, pins along the lower edge on metal4, obstructions below."""
     lines = ["VERSION 5.7 ;", 'BUSBITCHARS "[]" ;', 'DIVIDERCHAR "/" ;']
     for macro in macros:
         name = macro.size.name
@@ -180,7 +180,7 @@ def black_boxes(macros: list[Macro]) -> str:
 
 
 def behavioural_models(sizes: Iterable[Size]) -> str:
-    """The macros for simulation: each is the technology folder's stand-in of its size."""
+    """Simulation models of the macros: each is the technology folder's stand-in with this size."""
     lines = ["// SPDX-License-Identifier: Apache-2.0", "// Generated: every macro is a behavioural SRAM of its size."]
     for size in sorted(set(sizes)):
         connections = ", ".join(f".{name}({name})" for name, _, _ in pins(size))
@@ -192,7 +192,7 @@ def behavioural_models(sizes: Iterable[Size]) -> str:
 
 
 def technology_module(ports: int, sizes: list[Size]) -> str:
-    """The technology module of a port kind: a choice among the listed sizes."""
+    """Technology module of a port kind, which selects among the listed sizes."""
     module = sram_model.KINDS[ports].module
     names = {"addr_i": "A", "raddr_i": "A", "waddr_i": "A", "wdata_i": "W", "rdata_o": "W"}
     reference = pins(Size(ports, 16, 1))
@@ -229,7 +229,7 @@ def write_kit(folder: Path, sizes: list[Size], macro_of: Callable[[Size], Macro]
 
 
 def write_rtl_views(folder: Path, sizes: Iterable[Size]) -> list[Path]:
-    """Black boxes of these sizes and the technology modules that choose among them; returns the files."""
+    """Writes black boxes of these sizes and the technology modules that select them; returns the files."""
     sizes = sorted(set(sizes))
     files = {"sram40_blackbox.v": black_boxes([sram_model.macro(size) for size in sizes])}
     for ports, kind in sram_model.KINDS.items():

@@ -41,7 +41,7 @@ class PowerLaw:
 
 @dataclass(frozen=True)
 class LinearInBits:
-    """scale * words^words_exponent * (bits + offset); the offset is what a word costs of itself, in bits."""
+    """scale * words^words_exponent * (bits + offset). The offset is the cost of a word itself, in bits."""
 
     scale: float
     words_exponent: float
@@ -53,7 +53,7 @@ class LinearInBits:
 
 @dataclass(frozen=True)
 class PortKind:
-    """Geometry in um and the laws of the CACTI points (ns, pJ, pJ, uW) of one port organisation."""
+    """Geometry in um, and laws of the CACTI points (ns, pJ, pJ, uW), for one kind of port."""
 
     module: str
     strip_width: float
@@ -136,8 +136,7 @@ class Macro:
 
 def _bank(kind: PortKind, words: int, bits: int,
           muxes: tuple[int, ...]) -> tuple[float, int, int, int, float, float] | None:
-    """(area, mux, rows, columns, width, height) of the best legal array, or None. A single mux may have any aspect
-    ratio."""
+    """(area, mux, rows, columns, width, height) of the best legal array, or None. If only one mux is given, any aspect ratio is legal."""
     best = None
     most_aspect = MAX_ASPECT if len(muxes) > 1 else math.inf
     for mux in muxes:
@@ -155,8 +154,8 @@ def _bank(kind: PortKind, words: int, bits: int,
 
 
 def macro(size: Size, mux: int | None = None) -> Macro:
-    """Figures of a size, with the multiplexer that makes it smallest or with `mux`. A memory too large for one array
-    is cut into equal banks, side by side."""
+    """Figures of a size, with the multiplexer of least area or with `mux`. A memory too large for one array is divided into equal banks
+    side by side."""
     if size.ports not in KINDS or size.words < 1 or size.bits < 1:
         raise FlowError(f"no SRAM macro for {size}: ports must be 1 or 2, words and bits at least 1")
     kind = KINDS[size.ports]

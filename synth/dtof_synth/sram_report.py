@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""reports/sram.md: every macro in use, and the model beside public points where they are present."""
+"""reports/sram.md: every macro in use, and the model compared with public points if they are present."""
 
 from __future__ import annotations
 
@@ -54,14 +54,14 @@ def fit(rows: Sequence[tuple[float, ...]], values: list[float]) -> list[float]:
 
 
 def fit_power_law(points: list[tuple[int, int, float]]) -> PowerLaw:
-    """Of (words, bits, value): least squares of log(value) = a + b log(words) + c log(bits)."""
+    """Fits log(value) = a + b log(words) + c log(bits) by least squares to points (words, bits, value)."""
     a, b, c = fit([(1.0, math.log(words), math.log(bits)) for words, bits, _ in points],
                   [math.log(value) for *_, value in points])
     return PowerLaw(math.exp(a), b, c)
 
 
 def fit_linear_in_bits(points: list[tuple[int, int, float]]) -> LinearInBits:
-    """Likewise of log(value) = a + b log(words) + log(bits + offset), the offset by a ternary search."""
+    """Fits log(value) = a + b log(words) + log(bits + offset) by least squares; the offset by a ternary search."""
     def best(offset: float) -> tuple[float, float, float]:
         rows = [(1.0, math.log(words)) for words, _, _ in points]
         logs = [math.log(value / (bits + offset)) for _, bits, value in points]
@@ -80,7 +80,7 @@ def fit_linear_in_bits(points: list[tuple[int, int, float]]) -> LinearInBits:
 
 
 def _extrapolated(rows: list[dict[str, str]], most_bits: int) -> tuple[float, float]:
-    """Read energy of the widest words over CACTI's, by laws fitted to words of at most `most_bits`: linear, power."""
+    """Read energy of the widest words relative to CACTI's, by laws fitted to words of at most `most_bits`: (linear, power)."""
     points = [(int(row["words"]), int(row["bits"]), float(row["read_pJ"])) for row in rows]
     known = [point for point in points if point[1] <= most_bits]
     words, bits, energy = max(points, key=lambda point: point[1])
@@ -132,7 +132,7 @@ def _openram_lines(pdk: Path) -> list[str]:
 
 
 def _straight_line(points: list[tuple[float, float]]) -> tuple[float, float, float]:
-    """(offset, slope, largest relative error) of a straight line."""
+    """(offset, slope, largest relative error) of a straight line through points."""
     mean_x, mean_y = mean(x for x, _ in points), mean(y for _, y in points)
     slope = sum((x - mean_x) * (y - mean_y) for x, y in points) / sum((x - mean_x) ** 2 for x, _ in points)
     offset = mean_y - slope * mean_x
@@ -152,7 +152,7 @@ def _ihp_lines(pdk: Path) -> list[str]:
 
 
 def text(uses: dict[Size, list[str]], named: set[str], pdk: Path) -> str:
-    """The report. Without the public points only the list of macros."""
+    """The report; without the public points only the list of macros."""
     lines = ["# SRAM macros", "",
              "Written by `make synth` from the physical model of `synth/dtof_synth/sram_model.py`; "
              "[docs/reference/technology.md](../docs/reference/technology.md) has the sources. Not sign-off.", "",

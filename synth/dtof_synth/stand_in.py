@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What stands for most columns in the netlist that is timed: the logic at their borders.
+"""Stand-ins for most columns in the timed netlist: the logic at their borders.
 
-A stand-in has every cell between an input port of the column and the first register, gate of the clock or macro behind it, and
-every cell between an output port and the last one before it, these included. So each path that crosses the border of a column
-is timed as it is in the whole array, and so is each path through a column from port to port. Paths that begin and end inside a
-column are alike in all columns; the few real columns have them.
+A stand-in has every cell between an input port of the column and the first register, clock gate or macro behind the port. It also has every
+cell between an output port and the last register, clock gate or macro in front of it; these end cells are included. So each path that
+crosses a column's border is timed as in the whole array, and so is each path through a column from port to port. Paths that begin and end
+inside a column are equal in all columns; the few real columns have them.
 
-A cell that is left out still loads the nets of those that stay: load cells, which have a capacitance and no timing, take its
-place. Pins of registers, gates of the clock and macros that would hang on a cell that is left out are not connected; `cut`
-names them.
+A cell that is left out still loads nets of the stand-in. It is replaced by load cells, which have a capacitance and no timing. Pins of
+registers, clock gates and macros that such a cell would drive are not connected; `cut` names them.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ LOADS_PER_FF = 100  # a load cell's name has its capacitance, in hundredths of a
 
 @dataclass(frozen=True)
 class StandIn:
-    """`cut`: cell/pin or cell/pin[bit]."""
+    """A stand-in. `cut`: unconnected pins as cell/pin or cell/pin[bit]."""
 
     module: Module
     loads: dict[str, float]  # kind of load cell: fF
@@ -37,7 +36,7 @@ class StandIn:
 
 
 class _Borders:
-    """Which cells of a column stay."""
+    """Decides which cells of a column stay."""
 
     def __init__(self, module: Module, library: Library) -> None:
         self.module = module
@@ -65,12 +64,12 @@ class _Borders:
                 for bit in port["bits"] if isinstance(bit, int) and bit not in self.clocks]
 
     def ends_paths(self, name: str) -> bool:
-        """A register, a gate of the clock or a macro."""
+        """True for a register, a clock gate or a macro."""
         kind = self.module["cells"][name]["type"]
         return kind in self.library.sequential or kind in self.library.clock_pin_ff or kind not in self.library.area
 
     def drives(self, name: str | None) -> bool:
-        """Whether a cell stays with its outputs: a register that stays as the end of a path alone has none."""
+        """True if a cell keeps its outputs; a register that only ends a path does not."""
         return name is not None and name in self.kept and (not self.ends_paths(name) or name in self.launching)
 
     def _of(self, name: str, direction: str) -> Iterable[int]:
@@ -101,7 +100,7 @@ class _Borders:
         self.kept |= seen
 
     def _clocked(self) -> None:
-        """The gates of the clock in front of what stays."""
+        """Adds the clock gates in front of the cells that stay."""
         waiting = [bit for name in self.kept for bit in self._of(name, "input") if bit in self.clocks]
         while waiting:
             name = self.driver.get(waiting.pop())
@@ -141,7 +140,8 @@ def of(module: Module, library: Library, pin_load: Callable[[str, str], float]) 
 
 
 def _load_cells(missing: dict[int, list[float]], library: Library) -> tuple[dict[str, dict], dict[str, float]]:
-    """The cells in place of what is missing behind nets, and their kinds with the capacitance. `missing`: fF of each pin."""
+    """Load cells for the pins that are missing behind nets, and the kinds of load cells with their capacitance. `missing`: capacitances of
+    a net's missing pins, fF."""
     cells: dict[str, dict] = {}
     loads: dict[str, float] = {}
     for bit, pins in missing.items():
@@ -156,7 +156,7 @@ def _load_cells(missing: dict[int, list[float]], library: Library) -> tuple[dict
 
 
 def load_of(module: Module, library: Library, pin_load: Callable[[str, str], float]) -> StandIn:
-    """What a column is for the others: the load of its input ports, and no path."""
+    """A column reduced to the load of its input ports, without paths."""
     inputs = {bit for port in module["ports"].values() if port["direction"] == "input" for bit in port["bits"] if isinstance(bit, int)}
     nets = netlist.sinks_of(module, pin_load, 0.0)
     missing = {bit: [sink.load for sink in nets[bit]] for bit in sorted(inputs - netlist.clock_nets(module)) if bit in nets}
@@ -166,8 +166,8 @@ def load_of(module: Module, library: Library, pin_load: Callable[[str, str], flo
 
 def timed(design: dict, real: Iterable[str], library: Library, pin_load: Callable[[str, str], float],
           bordered: Iterable[str] | None = None) -> tuple[dict, StandIn]:
-    """The design with stand-ins for all columns but the real ones; where `bordered` names some, then for these, and mere loads for
-    the others. Modules and cells that do not change are shared with the design."""
+    """The design with stand-ins for all columns except `real`. With `bordered`, only these columns get stand-ins, the others mere loads.
+    Unchanged modules and cells are shared with the design."""
     kind = netlist.column_module(design)
     module = netlist.modules(design)[kind]
     stand_in, load = of(module, library, pin_load), load_of(module, library, pin_load)

@@ -56,7 +56,7 @@ MAX_LOAD_INVERTERS = 24.0  # max_capacitance of drive 1, in inverter inputs
 
 @dataclass(frozen=True)
 class Corner:
-    """Factors against the typical corner; the registers' differ from the gates'."""
+    """Factors relative to the typical corner; registers have their own."""
 
     name: str
     voltage: float
@@ -91,7 +91,7 @@ class Stage:
 
 @dataclass(frozen=True)
 class Output:
-    """A combinational output: function, the stages from each input, sense per input ('' = both edges)."""
+    """An output of a combinational cell: function, stages from each input, and sense per input ('' = both edges)."""
 
     function: str
     paths: dict[str, tuple[Stage, ...]]
@@ -100,7 +100,7 @@ class Output:
 
 @dataclass(frozen=True)
 class Gate:
-    """A combinational cell. `input_ff` is the whole load of a pin, all its stages together."""
+    """A combinational cell. `input_ff`: whole load of a pin, all stages together."""
 
     name: str
     pitches: int
@@ -169,7 +169,7 @@ def _complex_family(drive: int) -> list[Gate]:
 
 
 def _xor_family(drive: int) -> list[Gate]:
-    """XOR2 is NOR2 into AOI21, XNOR2 is NAND2 into OAI21; the path through both stages counts."""
+    """XOR2 (NOR2 into AOI21) and XNOR2 (NAND2 into OAI21); the delay is that of the path through both stages."""
     xor_path = (nor(2), Stage(5 / 3, 7 / 3, drive))
     xnor_path = (nand(2), Stage(4 / 3, 8 / 3, drive))
     gates = []
@@ -181,7 +181,7 @@ def _xor_family(drive: int) -> list[Gate]:
 
 
 def _mux(drive: int) -> Gate:
-    """AOI22 and output inverter, one inverter for the select."""
+    """Multiplexer: AOI22 and output inverter, with an inverter for the select."""
     inner = _driver_of(drive)
     core = (Stage(2, 4, inner), inverter(drive))
     select = (inverter(),) + core
@@ -226,7 +226,7 @@ def gates() -> list[Gate]:
 
 
 def stage_step(stage: Stage, load_ff: float) -> float:
-    """Parasitic plus electrical effort, in tau."""
+    """Parasitic plus electrical effort of a stage, in tau."""
     return stage.parasitic + load_ff / (stage.drive * CINV_FF)
 
 
@@ -264,7 +264,7 @@ def _table(kind: str, rows: list[float], columns: list[float], values: list[list
 
 
 def _delay_tables(delay, corner: Corner, drive: float) -> list[Group]:
-    """Rise and fall tables of `delay(slew, load) -> (delay, slew)`; both edges are alike by construction."""
+    """Rise and fall tables of `delay(slew, load) -> (delay, slew)`; both edges are equal by construction."""
     slews, loads = _slew_axis(corner), _load_axis(drive)
     points = [[delay(slew, load) for load in loads] for slew in slews]
     delays = [[point[0] for point in row] for row in points]
@@ -274,7 +274,7 @@ def _delay_tables(delay, corner: Corner, drive: float) -> list[Group]:
 
 
 def _energy(pin: str, femtojoules: float) -> Group:
-    """Internal energy of one edge, both edges alike."""
+    """Internal energy of one edge; both edges are equal."""
     attributes: list[tuple[str, str | list[str]]] = [("related_pin", f'"{pin}"')] if pin else []
     value = [("values", [quoted([femtojoules])])]
     return Group("internal_power", [], attributes,
@@ -345,7 +345,7 @@ def hold_ns(corner: Corner) -> float:
 
 
 def clock_to_q(corner: Corner, drive: float, load_ff: float) -> tuple[float, float]:
-    """(delay, slew): Nangate's clk->q into a fan-out of 4, the output stage an inverter of that drive."""
+    """(delay, slew) of clk->q: Nangate's into a fan-out of 4, with an inverter of this drive as output stage."""
     fixed = 0.106 * FO4_SCALE * corner.clock_to_q - STEP * _tau(corner) * stage_step(inverter(), 4 * CINV_FF)
     effort = stage_step(inverter(drive), load_ff)
     return fixed + STEP * _tau(corner) * effort, SLEW * _tau(corner) * effort
@@ -391,7 +391,7 @@ def flip_flop(kind: str, drive: int, corner: Corner) -> Group:
 
 
 def latch(corner: Corner) -> Group:
-    """Transparent-high latch, for porters; the RTL infers none (the flow stops if it does)."""
+    """Transparent-high latch, for users who port the RTL. The RTL infers none (the flow stops if it does)."""
     pitches = sequential_pitches("DLATCH")
     cell = _cell("DLATCH_X1", pitches, DFF_LEAKAGE_NW * pitches / sequential_pitches("DFF") * corner.leakage)
     cell.add(Group("latch", ["IQ", "IQN"], [("data_in", '"D"'), ("enable", '"G"')]))
@@ -417,8 +417,8 @@ GATE_PATH = (nand(2), inverter())  # the AND of a clock gate
 
 
 def clock_gate(corner: Corner) -> Group:
-    """Integrated clock gate: latch and AND. Its clock must come as much earlier than that of the registers behind it as it
-    takes itself, and clocks are ideal in this flow, so that the setup of its enable has this delay in it."""
+    """Integrated clock gate: latch and AND. Its clock must arrive earlier than that of the registers behind it by the gate's own delay.
+    Clocks are ideal in this flow, so the setup time of the enable includes this delay."""
     early, _ = path_delay(GATE_PATH, 0.0, MAX_LOAD_INVERTERS / 2 * CINV_FF, _tau(corner))
     pitches = sequential_pitches("CLKGATE")
     cell = _cell("CLKGATE_X1", pitches, DFF_LEAKAGE_NW * pitches / sequential_pitches("DFF") * corner.leakage)
@@ -471,7 +471,7 @@ def _header(corner: Corner, axis: int, wire_um_per_fanout: float = WIRE_UM_PER_F
 
 
 def library(corner: Corner, wire_um_per_fanout: float = WIRE_UM_PER_FANOUT) -> str:
-    """The whole Liberty text of a corner; its wire-load model has so much length per sink."""
+    """Liberty text of a corner. Its wire-load model has `wire_um_per_fanout` of wire per sink."""
     root = _header(corner, 4, wire_um_per_fanout)
     root.groups += [gate_cell(gate, corner) for gate in gates()]
     root.groups += [flip_flop(kind, drive, corner)

@@ -14,13 +14,13 @@ _NO_TYPES = {"wires", "ports", "memories", "processes", "cells", "submodules"}
 
 
 def last(text: str) -> str:
-    """The statistics of the last module that the text has."""
+    """Statistics of the last module in the text."""
     titles = [found.start() for found in _TITLE.finditer(text)]
     return text[titles[-1]:] if titles else text
 
 
 def cells(text: str) -> dict[str, int]:
-    """Cells by type of the last module. FlowError if their sum is not the total that Yosys prints, or there is none."""
+    """Numbers of cells by type for the last module. FlowError if there are none, or their sum differs from Yosys's total."""
     statistics = last(text)
     total = _TOTAL.search(statistics)
     if total is None:

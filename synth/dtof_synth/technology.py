@@ -27,7 +27,7 @@ def needed_sizes(configurations: list[Configuration]) -> dict[Size, list[str]]:
 
 
 def _plain_liberty(path: Path, folder: Path) -> Path:
-    """A Liberty that Yosys and OpenSTA read: unpacked if it is gzipped."""
+    """A Liberty for Yosys and OpenSTA: unpacked if it is gzipped."""
     if path.suffix != ".gz":
         if not path.is_file():
             raise FlowError(f"{path}: no such Liberty file")
@@ -45,8 +45,8 @@ def prepare(root: Path, build: Path, configurations: list[Configuration],
             liberty: Path | None = None, liberty_slow: Path | None = None,
             macro_of: Callable[[Size], Macro] = sram_model.macro, target_mhz: float = TARGET_MHZ,
             more: Sequence[Configuration] = ()) -> Technology:
-    """Generated libraries unless `liberty` is given; without `liberty_slow` it serves both corners. `more`: configurations whose
-    SRAMs are made, too, whether the list of sizes has them or not."""
+    """Prepares generated libraries, or `liberty`, which also serves the slow corner unless `liberty_slow` is given. `more`: configurations
+    whose SRAMs are made even if the list of sizes lacks them."""
     build.mkdir(parents=True, exist_ok=True)
     listed = sram_kit.read_sizes(root / SIZES)
     for size, users in needed_sizes(configurations).items():

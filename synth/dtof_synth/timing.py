@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Slacks and paths of a netlist in one corner: runs OpenSTA with synth/sta/timing.tcl and reads what it printed."""
+"""Slacks and paths of a netlist in one corner: runs OpenSTA with synth/sta/timing.tcl and parses its output."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ BLOCKS = "blocks.json"  # beside it: kind of a block, its instances, how many th
 
 @dataclass(frozen=True)
 class Timing:
-    """One corner. Slacks in ns: setup and hold at the technology's target clock, setup at 500 MHz. `slow_edges`: pins
-    beyond the library's max_transition."""
+    """Timing of one corner. Slacks in ns: setup and hold at the technology's target clock, setup at 500 MHz. `slow_edges`: pins beyond the
+    library's max_transition."""
 
     slack: float
     hold_slack: float
@@ -35,7 +35,7 @@ class Timing:
 
 @dataclass(frozen=True)
 class Margin:
-    """One corner with the margins of constraints/margins.sdc. Slacks in ns at the target clock."""
+    """Timing of one corner with the margins of constraints/margins.sdc. Slacks in ns at the target clock."""
 
     slack: float
     hold_slack: float
@@ -46,7 +46,7 @@ class Margin:
 
 @dataclass(frozen=True)
 class TimedPath:
-    """Input pins from behind the first register to the end."""
+    """Input pins of a path, from behind the first register to the end."""
 
     pins: list[str]
     slack: float
@@ -54,7 +54,7 @@ class TimedPath:
 
 @dataclass(frozen=True)
 class Netlist:
-    """Files that OpenSTA reads: Verilog, the wires' SPEF and the Liberty files of one corner."""
+    """Files for OpenSTA: Verilog, SPEF of the wires, and the Liberty files of one corner."""
 
     name: str  # in messages
     verilog: Path
@@ -65,8 +65,8 @@ class Netlist:
 
 
 def _readable(name: str, called: dict[str, str]) -> str:
-    """A register's or macro's name without generate levels, cell type and copy number. `called`: what its parts were called
-    before spef.plain_names."""
+    """Name of a register or macro without generate levels, cell type and copy number. `called`: names of its parts before
+    spef.plain_names."""
     name = "/".join(called.get(part, part) for part in name.split("/"))
     name = re.sub(r"\\+\w+$", "", name)
     name = re.sub(r"^\S*u_(column|pair)/(g_column\[\d+\]\.u_column\.)?", "column ", name)
@@ -79,7 +79,7 @@ def _slack_of(text: str) -> float:
 
 @dataclass(frozen=True)
 class Report:
-    """What OpenSTA printed for the steps of synth/sta/timing.tcl that were asked for."""
+    """Output of OpenSTA for the requested steps of synth/sta/timing.tcl."""
 
     output: str
     called: dict[str, str]
@@ -92,12 +92,12 @@ class Report:
 
     @property
     def slack(self) -> float:
-        """Setup, of the step `nominal`."""
+        """Setup slack from the step `nominal`, ns."""
         return self._number("DTOF_SLACK")
 
     @property
     def unchecked(self) -> dict[str, list[str]]:
-        """What OpenSTA's check_setup warns of: kind of warning without its number, pins and ports; of the step `check`."""
+        """Warnings of OpenSTA's check_setup from the step `check`: pins and ports for each kind of warning."""
         found: dict[str, list[str]] = {}
         names: list[str] = []
         for line in self._section("DTOF_CHECK").splitlines():
@@ -112,7 +112,7 @@ class Report:
 
     @property
     def too_fast_for_sram(self) -> bool:
-        """The clock is faster than an SRAM's minimum period, of the step `nominal`."""
+        """True if the clock is faster than an SRAM's minimum period; from the step `nominal`."""
         return "VIOLATED" in self._section("DTOF_MIN_PERIOD")
 
     def margin(self) -> Margin:
@@ -125,32 +125,32 @@ class Report:
 
     @property
     def early(self) -> list[TimedPath]:
-        """Those that violate hold with margins, of the step `early`."""
+        """Paths that violate hold with margins, from the step `early`."""
         return self._paths("DTOF_EARLY")
 
     @property
     def spare(self) -> dict[str, float]:
-        """What each pin has to spare for setup, ns, with margins; of the step `spare`."""
+        """Setup slack of each pin with margins, ns, from the step `spare`."""
         return {pin: float(slack) for pin, slack in (line.split() for line in self._section("DTOF_SPARE").splitlines())}
 
     @property
     def resized(self) -> list[tuple[str, str, str]]:
-        """(kind of block or `top`, gate, library cell) of what the step `resize` gave another drive."""
+        """(kind of block or `top`, gate, library cell) for each gate that the step `resize` gave another drive."""
         return re.findall(r"^DTOF_RESIZED (\S+) (\S+) (\S+)$", self.output, re.MULTILINE)
 
     @property
     def dropped(self) -> list[tuple[str, str]]:
-        """(kind of block, buffer) of the buffers that the step `resize` found needless."""
+        """(kind of block, buffer) for each buffer that the step `resize` found unnecessary."""
         return re.findall(r"^DTOF_DROPPED (\S+) (\S+)$", self.output, re.MULTILINE)
 
     @property
     def resized_slack(self) -> float:
-        """Setup with margins, of the step `resize`."""
+        """Setup slack with margins from the step `resize`, ns."""
         return self._number("DTOF_RESIZED_SLACK")
 
     @property
     def resized_area(self) -> float:
-        """What the step `resize` added to the array, um2."""
+        """Area that the step `resize` added to the array, um2."""
         return self._number("DTOF_RESIZED_AREA")
 
     def _section(self, name: str) -> str:
@@ -160,7 +160,7 @@ class Report:
         return float(found_in("OpenSTA", rf"^{label} (.*)$", self.output)[1].split()[index])
 
     def _slowest_path(self, section: str) -> tuple[str, str, int]:
-        """(start, end, cells between them) of the one with the least slack; OpenSTA reports one per path group, resets first."""
+        """(start, end, cells between them) of the path with the least slack. OpenSTA reports one path per path group, resets first."""
         reports = [report for report in self._section(section).split("Startpoint: ")[1:] if _SLACK.search(report)]
         if not reports:
             raise FlowError("OpenSTA reported no timing path")
@@ -173,8 +173,8 @@ class Report:
         return _readable(start, self.called), _readable(end, self.called), len(gates)
 
     def _paths(self, section: str) -> list[TimedPath]:
-        """Paths in a section of a report with input pins, without the paths that end at a port. Counted from the path's end, every
-        second pin is an input; the last input is the clock pin at which the path begins."""
+        """Paths of a report's section that has input pins, without paths that end at a port. Counted from a path's end, every second pin is
+        an input; the last input is the clock pin at the path's start."""
         found = []
         for report in self._section(section).split("Startpoint: ")[1:]:
             data, times = report.split("data arrival time", 1)
@@ -186,8 +186,8 @@ class Report:
 
 def measure(netlist: Netlist, root: Path, target_mhz: float, log: Path, steps: tuple[str, ...],
             settings_of_steps: dict[str, tools.Setting] | None = None) -> Report:
-    """Runs OpenSTA; the steps are those of synth/sta/timing.tcl, some of which have settings of their own. FlowError where it
-    fails or the clock is faster than an SRAM allows."""
+    """Runs the given steps of synth/sta/timing.tcl in OpenSTA; some steps have settings. FlowError if OpenSTA fails or the clock is too
+    fast for an SRAM."""
     settings = log.with_suffix(".tcl")
     tools.write_settings(settings, {
         "steps": list(steps), "liberty_files": netlist.liberty_files, "netlist": netlist.verilog, "wires": netlist.wires,

@@ -22,13 +22,13 @@ def _tcl(value: Setting) -> str:
 
 
 def write_settings(path: Path, settings: dict[str, Setting]) -> None:
-    """A Tcl file of `set name {value}`; lists and dictionaries become Tcl lists."""
+    """Writes a Tcl file of `set name {value}`; lists and dictionaries become Tcl lists."""
     path.write_text("".join(f"set {name} {{{_tcl(value)}}}\n" for name, value in settings.items()),
                     encoding="utf-8")
 
 
 def _run(command: list[str], script: Path, settings: Path, log: Path) -> str:
-    """Runs the tool with the script, which finds its settings and its neighbours by the environment."""
+    """Runs a tool with a script. The script finds its settings and neighbouring scripts by environment variables."""
     environment = {**os.environ, "DTOF_SETTINGS": str(settings), "DTOF_SCRIPTS": str(script.parent)}
     try:
         finished = subprocess.run([*command, str(script)], env=environment, check=False, stdout=subprocess.PIPE,
@@ -57,7 +57,7 @@ def run_yosys(script: Path, settings: Path, log: Path, name: str) -> None:
 
 
 def run_sta(script: Path, settings: Path, log: Path, name: str) -> str:
-    """Runs OpenSTA and returns its output. Its exit status says nothing, its marker and messages do."""
+    """Runs OpenSTA; returns its output. Success is judged by its marker and messages, since its exit status is meaningless."""
     output = _run(["sta", "-no_splash", "-exit"], script, settings, log)
     failed = re.search(r"^DTOF_STA_FAILED (.*)", output, re.MULTILINE)
     error = re.search(r"^Error: (.*)", output, re.MULTILINE)

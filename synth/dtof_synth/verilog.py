@@ -62,6 +62,6 @@ def _constant(bit: str) -> str:
 
 
 def write(design: dict) -> str:
-    """All modules that have cells; macros, library cells and stubs are the libraries'."""
+    """Verilog of all modules with cells. Macros, library cells and stubs come from the libraries."""
     return "\n".join(line for name, module in netlist.modules(design).items() if module["cells"]
                      for line in _module(name, module))

@@ -21,13 +21,13 @@ MACROS = {64: {64: 2497.93, 96: 2986.13, 124: 5492.0, 256: 13566.9},
 
 
 def model_growth(bits: int) -> float:
-    """Read energy of the model's one-port words of so many bits over that of FITTED_BITS."""
+    """Read energy of the model's one-port words of `bits` bits relative to FITTED_BITS."""
     law = sram_model.KINDS[1].read_energy
     return law(1, bits) / law(1, FITTED_BITS)
 
 
 def growth(series: dict[int, float], bits: int) -> float:
-    """The same of a series, by straight lines between the logarithms of its points, and beyond the last one as before it."""
+    """Read energy of `bits` bits in a series, relative to FITTED_BITS: straight lines between the logarithms of its points, continued beyond the last one."""
     widths = sorted(series)
     above = next((index for index, width in enumerate(widths) if width >= bits and index > 0), len(widths) - 1)
     low, high = widths[above - 1], widths[above]
@@ -36,14 +36,14 @@ def growth(series: dict[int, float], bits: int) -> float:
 
 
 def read_factor(bits: int) -> float:
-    """What a read of so many bits would cost over what the model says, if it grew beyond FITTED_BITS as the mean of the series."""
+    """Factor on the model's energy of a read of `bits` bits if energy grew beyond FITTED_BITS as the mean of the series."""
     if bits <= FITTED_BITS:
         return 1.0
     return mean(growth(series, bits) for series in MACROS.values()) / model_growth(bits)
 
 
 def lines() -> list[str]:
-    """Markdown: the model beside all points."""
+    """Markdown: the model compared with all points."""
     rows = [f"| {words} x {bits} | {energy / series[FITTED_BITS]:.2f} | {model_growth(bits):.2f} | "
             f"{model_growth(bits) * series[FITTED_BITS] / energy:.2f} |"
             for words, series in MACROS.items() for bits, energy in series.items() if bits > FITTED_BITS]

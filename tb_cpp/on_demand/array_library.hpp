@@ -14,10 +14,11 @@
 
 namespace dtof {
 
-/// A Verilated array or subsystem as a shared library.
+/// A Verilated array or subsystem, compiled as a shared library.
 class ArrayLibrary {
  public:
-  /// C symbol of the library: std::unique_ptr's pointer of a new model in a VerilatedContext.
+  /// C symbol of the function that makes a model in a VerilatedContext; it returns the pointer of a
+  /// std::unique_ptr.
   static constexpr const char* kMaker = "dtof_make_model";
 
   ArrayLibrary(RtlTop top, std::vector<RtlSetting> settings, Toolchain tools,
@@ -26,10 +27,10 @@ class ArrayLibrary {
   /// Everything that the library depends on, as text.
   [[nodiscard]] const std::string& key() const { return key_; }
 
-  /// Says what is done now; called about ten times a second.
+  /// Called about ten times a second with the current step.
   using Tick = std::function<void(std::string_view doing)>;
 
-  /// Writes the library into `folder`/`file`. Throws InputError with one line if a tool refuses; that tool's
+  /// Builds the library as `folder`/`file`. Throws InputError with one line if a tool fails; the tool's
   /// output is then in `log`.
   void build(const std::filesystem::path& folder, const std::string& file, const std::filesystem::path& log,
              const Tick& tick) const;

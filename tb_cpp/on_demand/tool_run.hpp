@@ -9,15 +9,15 @@
 
 namespace dtof {
 
-/// What a program on PATH did.
+/// Result of a program on PATH.
 struct ToolRun {
-  int exit_code = 0;   ///< 128 and more: ended by a signal
-  std::string output;  ///< standard output and standard error, the first megabyte of them
+  int exit_code = 0;   ///< 128 and above: ended by a signal
+  std::string output;  ///< first megabyte of standard output and standard error
 };
 
-/// Runs `command` in `folder` (here, if empty) and waits; nothing if there is no such program. `tick` is
-/// called about ten times a second. If the user interrupts (Interrupted), the program and its children end
-/// first.
+/// Runs `command` in `folder` (empty: the current one) and waits for its end. Returns nothing if there is no
+/// such program. Calls `tick` about ten times a second. If the user interrupts (Interrupted), the program and
+/// its children are ended first.
 std::optional<ToolRun> run_tool(std::span<const std::string> command, const std::filesystem::path& folder,
                                 const std::function<void()>& tick = {});
 

@@ -8,13 +8,14 @@ namespace dtof {
 
 /// Verilator and the C++ compiler of this machine.
 struct Toolchain {
-  std::string verilator_version;      ///< as `verilator --version` says
-  std::string verilator_include;      ///< folder of verilated.h
-  std::vector<std::string> compiler;  ///< the command's first words: CXX, or what the program was built with
-  std::string compiler_version;       ///< the first line of its --version
+  std::string verilator_version;  ///< from `verilator --version`
+  std::string verilator_include;  ///< folder of verilated.h
+  /// First words of the compiler command: CXX, or the compiler of this program.
+  std::vector<std::string> compiler;
+  std::string compiler_version;  ///< the first line of its --version
 
-  /// Those of PATH and CXX, asked once. Throws InputError with one line that names what is missing, or a
-  /// Verilator that is not the one of this program's runtime.
+  /// Toolchain by PATH and CXX, found once. Throws InputError with one line that names the missing tool, or
+  /// if Verilator and this program's Verilator runtime differ in version.
   static const Toolchain& find();
 };
 

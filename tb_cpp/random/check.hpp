@@ -10,17 +10,17 @@
 
 namespace dtof {
 
-/// What the frames of one array came to.
+/// Result of comparing an array with its model.
 struct ArrayCheck {
   int frames = 0;
   std::uint64_t results = 0;
   std::uint64_t clocks = 0;
-  std::string difference;  ///< empty if every result is the model's
+  std::string difference;  ///< empty if every result equals the model's
 };
 
-/// Builds the array if it is not there, and runs frames of random streams through array and model: short and
-/// long, with pauses, back-pressure, resets, another gate in each. Before, a dark frame must take the clocks
-/// that predicted_frame_clocks() says. `reproduce`: the command that runs this array again.
+/// Builds the array if necessary, and compares it with the model. First a dark frame must take
+/// predicted_frame_clocks() clocks. Then frames of random streams follow, short and long, with pauses,
+/// back-pressure, resets and changing gates. `reproduce`: command that checks this array again.
 ArrayCheck check_array(const RtlConfiguration& configuration, std::uint64_t seed,
                        const std::string& reproduce, std::span<const SourceFile> sources = project_sources());
 

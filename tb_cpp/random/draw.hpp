@@ -7,9 +7,9 @@
 
 namespace dtof {
 
-/// The `index`-th configuration of `seed`: legal parameters of an array that is small enough to simulate in
-/// seconds. The read-outs follow each other, so that 11 draws have all of them; every other parameter is
-/// drawn from all of its legal values, a pool read-out's columns from one to several engines.
+/// Configuration number `index` of `seed`: an array with random legal parameters, small enough to simulate in
+/// seconds. The read-outs take turns, so 11 draws include all of them. Every other parameter is drawn from
+/// all its legal values; a pool read-out has one to several engines of columns.
 RtlConfiguration drawn_configuration(std::uint64_t seed, std::uint32_t index);
 
 }  // namespace dtof

@@ -7,11 +7,10 @@
 
 namespace dtof {
 
-/// One Verilated testbench of an array with its type erased: the ports by address,
-/// and eval().
+/// A Verilated testbench of an array, behind a common interface: pointers to its ports, and eval().
 class ArrayModel {
  public:
-  /// Where the model keeps its ports. Inputs are written before eval(), outputs read after it.
+  /// Pointers to the model's ports. Write inputs before eval() and read outputs after it.
   struct Ports {
     std::uint8_t* clock;
     std::uint8_t* reset_n;
@@ -19,10 +18,10 @@ class ArrayModel {
     std::uint16_t* acquisitions;
     std::uint16_t* gate_begin;
     std::uint16_t* gate_end;
-    std::uint8_t* raw;  ///< these three are of dtof_array only
+    std::uint8_t* raw;  ///< raw and the next two: dtof_array only
     std::uint16_t* raw_first_row;
     std::uint16_t* raw_last_row;
-    std::uint16_t* coarse_end;  ///< schedule; these are null in dtof_array
+    std::uint16_t* coarse_end;  ///< schedule; this and the next are null in dtof_array
     std::uint16_t* track_end;
     std::uint8_t* smooth;
     std::uint8_t* prior;
@@ -36,7 +35,7 @@ class ArrayModel {
     const std::uint8_t* done;
     const std::uint8_t* state;
     const std::uint8_t* error;         ///< kRtlUnderrun and so on
-    const std::uint8_t* counter_full;  ///< of dtof_array only, else null
+    const std::uint8_t* counter_full;  ///< dtof_array only, else null
     const std::uint8_t* tdc_ready;
     const std::uint8_t* result_valid;
     const std::uint8_t* result_last;
@@ -45,10 +44,10 @@ class ArrayModel {
     const std::uint16_t* result_code;
     const std::uint16_t* result_fraction;
     const std::uint16_t* result_confidence;
-    const std::uint16_t* result_second;  ///< of dtof_pool_pointer_array only, else null
+    const std::uint16_t* result_second;  ///< dtof_pool_pointer_array only, else null
 
     const std::uint8_t*
-        probe_write;  ///< column 0's histogram or pointer SRAM; silent unless built with PROBE
+        probe_write;  ///< write enable of column 0's histogram or pointer SRAM; 0 unless built with PROBE
     const std::uint16_t* probe_address;
     const std::uint16_t* probe_data;
   };
@@ -62,8 +61,8 @@ class ArrayModel {
 
   [[nodiscard]] virtual Ports ports() = 0;
   virtual void eval() = 0;
-  /// Begins a waveform (FST) of all signals. Throws InputError if the file cannot be written, or if this
-  /// model was built without waveforms, as it is unless it overrides these three.
+  /// Begins a waveform (FST) of all signals. Throws InputError if the file cannot be written, or if the model
+  /// was built without waveforms (the default of these three functions).
   virtual void open_trace(const std::filesystem::path& file);
   /// Writes the signals' values at `time` (ns).
   virtual void dump_trace(std::uint64_t time);

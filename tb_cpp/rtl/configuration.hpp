@@ -10,11 +10,11 @@
 
 namespace dtof {
 
-/// A pixel's place in an array, and in the result stream.
+/// Address of a pixel in the array, and its position in the result stream.
 struct ResultAddress {
   int row = 0;
   int column = 0;
-  bool begins_row = false;  ///< the first result of a row (in an engine's turn)
+  bool begins_row = false;  ///< first result of a row (with engines: of a row in an engine's turn)
 };
 
 /// Parameters of one compiled array: dtof_pool_pointer_array for the pool read-outs, dtof_array for the
@@ -27,16 +27,16 @@ struct RtlConfiguration {
   int pointer_ports = 2;             ///< POINTER_PORTS, 1 or 2 (pointer read-outs)
   bool signalled_clear = false;      ///< SIGNALLED_CLEAR (histogram read-outs)
   bool raw_histogram = false;        ///< RAW_HISTOGRAM: a frame may send histograms instead of results
-  bool records_waveform = true;      ///< not a parameter: whether a waveform of the model can be written
+  bool records_waveform = true;      ///< not a parameter: the model can write waveforms
 
-  /// E.g. "ezpointer NP=10 SLOTS=2 ... PIXELS_PER_SRAM=160 SRAM_NUM=8".
+  /// Text, e.g. "ezpointer NP=10 SLOTS=2 ... PIXELS_PER_SRAM=160 SRAM_NUM=8".
   [[nodiscard]] std::string to_string() const;
-  /// All pixels in the order of the result stream: row by row; with engines their columns in turn, each from
-  /// the first row to the last, the engines interleaved.
+  /// All pixels in the order of the result stream. Without engines: row by row. With engines: an engine sends
+  /// its columns in turn, each from the first row to the last; results of the engines are interleaved.
   [[nodiscard]] std::vector<ResultAddress> result_order() const;
 };
 
-/// FSM state as `state_o` codes it (docs/reference/architecture.md, "States").
+/// State of the FSM as coded in `state_o` (docs/reference/architecture.md, "States").
 enum class RtlState : int { kIdle = 0, kReset = 1, kM0 = 2, kM1 = 3, kM2 = 4, kM3 = 5, kM4 = 6, kM5 = 7 };
 
 inline constexpr std::size_t kRtlStateCount = 8;
@@ -46,7 +46,7 @@ inline constexpr std::uint8_t kRtlUnderrun = 1;
 inline constexpr std::uint8_t kRtlStartIgnored = 2;
 inline constexpr std::uint8_t kRtlIllegalSchedule = 4;
 
-/// IDLE, RESET, M0 .. M5.
+/// Name of a state: IDLE, RESET, M0 .. M5.
 std::string_view rtl_state_name(RtlState state);
 
 }  // namespace dtof

@@ -5,7 +5,7 @@
 
 namespace dtof {
 
-/// The RTL misbehaved: a failed assertion or $stop, a broken interface rule, a frame that does not end.
+/// Fault of the RTL: a failed assertion, $stop, a violated interface rule, or a frame that does not end.
 class RtlError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -15,25 +15,25 @@ namespace dtof {
 
 using ArrayModelFactory = std::function<std::unique_ptr<ArrayModel>(VerilatedContext&)>;
 
-/// Called by each compiled configuration when the program starts; returns true.
+/// Registers a compiled configuration. Each configuration calls this when the program starts. Returns true.
 bool register_rtl_configuration(const RtlConfiguration& configuration, ArrayModelFactory factory);
 
 /// Configurations linked into this program, sorted by their text.
 std::vector<RtlConfiguration> compiled_rtl_configurations();
 
-/// Configuration to read out `columns` columns of `rows` rows: of those with these parameters (parameters
-/// that the read-out does not use are not compared) and enough rows, the one that simulates least; the
-/// thesis's variant (two-port pointer SRAM, plain clear) before others. Of poolPointer the columns are
-/// those of one engine, and the array has just as many rows and columns: one more would be heard. A pool
-/// read-out's shares are those of `parameters`. With `waveform` only those that record one count. Throws
-/// InputError listing what is compiled.
+/// Configuration that reads `columns` columns of `rows` rows with these parameters (those that the read-out
+/// uses). Among arrays with enough rows, the one with the least simulation work; the thesis's variant
+/// (two-port pointer SRAM, plain clear) is preferred. A pool read-out needs an array of exactly one engine
+/// with exactly these rows and columns, since pixels depend on their neighbours; its shares are those of
+/// `parameters`. With `waveform`, only arrays that record waveforms count. Throws InputError that lists what
+/// is compiled.
 RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int rows, int columns,
                                         bool waveform = false);
 
-/// Whether make_array_model() has `configuration`.
+/// True if make_array_model() accepts `configuration`.
 bool has_array(const RtlConfiguration& configuration);
 
-/// Throws InputError listing what is compiled if `configuration` is not.
+/// Makes a model of a compiled configuration. Throws InputError that lists what is compiled if it is not.
 std::unique_ptr<ArrayModel> make_array_model(const RtlConfiguration& configuration,
                                              VerilatedContext& context);
 

@@ -13,28 +13,28 @@
 
 namespace dtof {
 
-/// Plays the TDCs of an array: turns sparse columns into one timestamp per clock and column on the port.
+/// Models the TDCs of an array: drives one timestamp per clock and column from sparse columns.
 ///
-/// Always offers the next acquisition, but for random pauses; after the last one it offers detections that
-/// the array must not take. While it pauses the bus carries detections, too.
+/// Offers the next acquisition at once, except for random pauses. During pauses and after the last
+/// acquisition the bus carries detections that the array must ignore.
 class TdcDriver {
  public:
   /// `columns` must outlive the driver. Throws InputError for a stream that the configuration cannot take.
   TdcDriver(const RtlConfiguration& configuration, const ArrayModel::Ports& ports,
             std::span<const ColumnStream> columns, std::uint32_t acquisitions);
 
-  /// Back to the frame's first timestamp.
+  /// Returns to the frame's first timestamp.
   void rewind(double pause_probability, CounterRandom random);
-  /// Puts this clock's timestamps on the port.
+  /// Drives this clock's timestamps.
   void drive();
-  /// Ends the clock. Throws RtlError if the array takes an acquisition that does not exist.
+  /// Ends the clock. Throws RtlError if the array takes more acquisitions than exist.
   void finish_clock();
 
-  /// The source pauses in this clock.
+  /// True if the source pauses in this clock.
   [[nodiscard]] bool pauses() const { return pause_left_ > 0; }
-  /// Acquisitions begun so far.
+  /// Number of acquisitions that have begun.
   [[nodiscard]] std::uint32_t acquisitions_begun() const { return begun_; }
-  /// An acquisition begins in this clock (valid after the array's outputs settled).
+  /// True if an acquisition begins in this clock. Call it after the array's outputs have settled.
   [[nodiscard]] bool begins() const { return !inside_ && *ports_.tdc_valid != 0 && *ports_.tdc_ready != 0; }
 
  private:
@@ -69,7 +69,7 @@ class TdcDriver {
   std::size_t slot_ = 0;
   bool inside_ = false;      // between the first and the last timestamp of an acquisition
   bool empty_pixel_ = true;  // no detection in any column
-  bool bus_idle_ = false;    // the bus carries "no detection" everywhere
+  bool bus_idle_ = false;    // the bus carries only "no detection"
 };
 
 }  // namespace dtof

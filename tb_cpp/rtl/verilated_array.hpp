@@ -9,8 +9,8 @@
 
 namespace dtof {
 
-/// ArrayModel over the class that Verilator generated for one configuration, without waveforms
-/// (waveform_array.hpp has one with them).
+/// ArrayModel for the class that Verilator generated for one configuration, without waveforms (with
+/// waveforms: waveform_array.hpp).
 template <typename Model>
 class VerilatedArray : public ArrayModel {
  public:
@@ -85,7 +85,7 @@ class VerilatedArray : public ArrayModel {
   [[nodiscard]] Model& model() { return model_; }
 
  private:
-  // Those that not all of the arrays have.
+  // Registers that only some arrays have.
   struct Registers {
     std::uint8_t* raw = nullptr;
     std::uint16_t* raw_first_row = nullptr;

@@ -13,7 +13,7 @@
 
 namespace dtof {
 
-/// VerilatedArray of a model that was generated with code for waveforms.
+/// VerilatedArray for a model that was generated with waveforms.
 template <typename Model>
 class WaveformArray final : public VerilatedArray<Model> {
  public:
@@ -25,7 +25,7 @@ class WaveformArray final : public VerilatedArray<Model> {
   WaveformArray& operator=(WaveformArray&&) = delete;
 
   void open_trace(const std::filesystem::path& file) override {
-    // Verilator's writer says nothing about a file it cannot create.
+    // Verilator reports no error if it cannot create the file.
     if (!std::ofstream(file).is_open()) {
       throw InputError(fmt::format("cannot write trace file '{}'", file.string()));
     }

@@ -5,8 +5,8 @@ class VerilatedContext;
 
 namespace dtof {
 
-/// Built for coverage (DTOF_COVERAGE of CMake): writes how often each line of the RTL ran and each bit
-/// toggled in this context as a file of its own in the folder DTOF_RTL_COVERAGE. Otherwise nothing.
+/// In builds for coverage (CMake option DTOF_COVERAGE): writes the number of runs of each RTL line and the
+/// toggles of each bit to a new file in the folder DTOF_RTL_COVERAGE. Otherwise does nothing.
 void write_coverage(VerilatedContext& context);
 
 }  // namespace dtof

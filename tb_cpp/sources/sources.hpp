@@ -6,13 +6,14 @@
 
 namespace dtof {
 
-/// A file of the project as it was when the program was built.
+/// A file of the project, as compiled into the program.
 struct SourceFile {
-  std::string_view path;  ///< from the project's folder on, e.g. "hdl/thesis/dtof_array.sv"
+  std::string_view path;  ///< relative to the project's folder, e.g. "hdl/thesis/dtof_array.sv"
   std::string_view text;
 };
 
-/// RTL, testbenches with the headers that a Verilated model needs, driver and constraints, by their paths.
+/// All compiled-in files, sorted by path: RTL, testbenches with the headers for Verilated models, driver and
+/// constraints.
 std::span<const SourceFile> project_sources();
 
 }  // namespace dtof

@@ -13,15 +13,15 @@
 
 namespace dtof {
 
-/// Source of an AXI4-Stream of lines with gaps anywhere.
+/// Source of an AXI4-Stream of lines, with random gaps.
 class LineSource {
  public:
   LineSource(const SubsystemModel::Ports& ports, int np, CounterRandom random)
       : ports_(ports), np_(np), random_(random) {}
 
-  double gap_probability = 0.0;  ///< per clock without a line offered
-  bool impatient = false;        ///< a TDC that cannot wait: a line that is refused is gone
-  bool dead = false;             ///< offers nothing
+  double gap_probability = 0.0;  ///< probability per clock of no offer
+  bool impatient = false;        ///< models a TDC that cannot wait: a refused line is lost
+  bool dead = false;             ///< offers no lines
 
   void push(Line line, bool last) { waiting_.push_back({std::move(line), last}); }
   [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
@@ -31,7 +31,7 @@ class LineSource {
   }
 
   void drive();
-  /// The line that was accepted in this clock, or null.
+  /// The line accepted in this clock, or null.
   [[nodiscard]] const Line* observe(bool* last);
 
  private:
@@ -48,25 +48,26 @@ class LineSource {
   bool offered_ = false;
 };
 
-/// Sink of the results' AXI4-Stream that checks the protocol in every clock: what is offered stays until it
-/// is taken; the first and the last word of a frame are marked, and no others.
+/// Sink of the result AXI4-Stream. Checks the protocol in every clock: an offered word stays until it is
+/// taken, and exactly the first and the last word of a frame are marked.
 class ResultSink {
  public:
   ResultSink(const SubsystemModel::Ports& ports, CounterRandom random) : ports_(ports), random_(random) {}
 
-  double stall_probability = 0.0;  ///< per clock
-  bool blocked = false;            ///< takes nothing
+  double stall_probability = 0.0;  ///< probability per clock that tready is low
+  bool blocked = false;            ///< tready stays low
 
-  /// Frames that were received whole, and the words of the one that is under way.
+  /// Complete frames received, and the words of the current one.
   [[nodiscard]] const std::vector<std::vector<std::uint64_t>>& frames() const { return frames_; }
   [[nodiscard]] const std::vector<std::uint64_t>& current() const { return current_; }
-  /// Frames that ended with a word that says that they were aborted.
+  /// Number of frames that ended with the word for an abort.
   [[nodiscard]] std::size_t aborted() const { return aborted_; }
-  /// Nothing is offered or expected.
+  /// True if no word is offered or expected.
   [[nodiscard]] bool idle() const { return expected_.empty() && !held_; }
-  /// Which of the frames that were expected these are: those that were cut off are missing.
+  /// For each received frame, its number among the expected frames; frames that were cut off without a word
+  /// are missing.
   [[nodiscard]] const std::vector<std::size_t>& numbers() const { return numbers_; }
-  /// A frame of so many words begins, behind those that are still expected.
+  /// Expects a frame of `words` words after those already expected.
   void expect_frame(std::size_t words) { expected_.push_back({begun_++, words}); }
   void reset() {
     current_.clear();
@@ -74,8 +75,8 @@ class ResultSink {
     held_ = false;
     cut_ = false;
   }
-  /// The frames that have begun are cut off behind this clock: what is offered stays, then a frame whose
-  /// first words have come ends with the word that says so.
+  /// Cuts off the expected frames after this clock. An offered word stays; a frame whose first words were
+  /// sent then ends with the word for an abort.
   void cut();
 
   void drive();

@@ -8,32 +8,32 @@
 
 namespace dtof {
 
-/// What a transfer came back with.
+/// Response of a transfer.
 struct BusResponse {
-  std::uint32_t data = 0;  ///< of a read
+  std::uint32_t data = 0;  ///< data of a read transfer
   bool error = false;      ///< PSLVERR or SLVERR
 };
 
-/// Master of the registers' port, clock by clock: APB4, or AXI4-Lite whose address, data and ready come in
-/// any order.
+/// Bus master for the registers, clock by clock: APB4, or AXI4-Lite with address, data and ready in any
+/// order.
 class RegisterBus {
  public:
   static constexpr std::uint8_t kAllBytes = 0xF;
 
   RegisterBus(const SubsystemModel::Ports& ports, CounterRandom random) : ports_(ports), random_(random) {}
 
-  /// Begins a transfer; one at a time.
+  /// Begins a transfer. Only one can be under way.
   void read(std::uint32_t offset) { begin(false, offset, 0, 0); }
   void write(std::uint32_t offset, std::uint32_t data, std::uint8_t strobe) {
     begin(true, offset, data, strobe);
   }
-  /// Forgets a transfer that a reset cut off.
+  /// Drops a transfer that a reset interrupted.
   void reset() { busy_ = false; }
   [[nodiscard]] bool busy() const { return busy_; }
   [[nodiscard]] const BusResponse& response() const { return response_; }
 
-  /// Inputs of this clock; then, with the outputs settled, what they say. Throws RtlError if the port breaks
-  /// its protocol.
+  /// drive() sets the inputs of this clock; observe() evaluates the settled outputs. Throws RtlError if the
+  /// port violates its protocol.
   void drive();
   void observe();
 

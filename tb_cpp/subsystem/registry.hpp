@@ -15,23 +15,23 @@ namespace dtof {
 
 using SubsystemModelFactory = std::function<std::unique_ptr<SubsystemModel>(VerilatedContext&)>;
 
-/// A compiled subsystem: the array in it and how to make its model.
+/// A compiled subsystem: its array and the function that makes its model.
 struct CompiledSubsystem {
   RtlConfiguration configuration;
   SubsystemModelFactory factory;
 };
 
-/// Called by each compiled subsystem when the program starts; returns true.
+/// Registers a compiled subsystem. Each subsystem calls this when the program starts. Returns true.
 bool register_subsystem(const RtlConfiguration& configuration, SubsystemModelFactory factory);
 
-/// Subsystems linked into this program, by their read-outs' numbers.
+/// Subsystems linked into this program, sorted by the number of their read-out.
 std::vector<CompiledSubsystem> compiled_subsystems();
 
-/// Those with these parameters (parameters that the read-out does not use are not compared) and at least so
-/// many rows that read the columns `selected` of a source of `source_columns`: of poolPointer one for each
-/// engine that has one of them, with just so many rows and columns, in their order, else one for all. Their
-/// configurations have the gate, the shares and S1 of `parameters`. Throws InputError naming what is
-/// compiled.
+/// Returns the compiled subsystems that read the columns `selected` of a source of `source_columns` columns
+/// and `rows` rows with these parameters (those that the read-out uses). For poolPointer one for each engine
+/// with a selected column, with exactly these rows and columns, in order; otherwise a single one with at
+/// least `rows` rows. Their configurations have the gate, the shares and S1 of `parameters`. Throws
+/// InputError that lists what is compiled.
 std::vector<CompiledSubsystem> find_subsystems(const ReadoutParameters& parameters, int rows,
                                                int source_columns, std::span<const int> selected);
 

@@ -6,7 +6,7 @@
 
 namespace dtof {
 
-/// What the ports and the commands show in a clock, as far as shots depend on it.
+/// Events of a clock on which shots depend.
 struct ShotClock {
   bool begin = false;  ///< a frame begins
   bool done = false;   ///< the array's frame ends
@@ -15,15 +15,16 @@ struct ShotClock {
   bool gave_up = false;    ///< the watchdog ends the frame for the source
   bool reseed = false;     ///< SHOT_SEED was written
   bool arrives = false;    ///< an acquisition's first line is accepted
-  bool rest_ends = false;  ///< a line with tlast is thrown away
+  bool rest_ends = false;  ///< a line with tlast is discarded
   bool inside = false;     ///< the source is inside an acquisition
-  bool early = false;      ///< the source is not to be asked yet
-  bool dropped = false;    ///< the acquisition that arrives is thrown away
+  bool early = false;      ///< it is too early to ask the source
+  bool dropped = false;    ///< the arriving acquisition is discarded
   bool taken = false;      ///< the array takes an acquisition's first line
 };
 
-/// When shot_o must be high, as integration.md says: a shot for each acquisition that the frame needs and
-/// nobody has or owes, two clocks and the delay behind the request for it.
+/// Reference for shot_o (docs/user/integration.md): one shot for each acquisition that the frame needs and
+/// that is neither buffered nor already requested. The shot is two clocks plus the dither delay after the
+/// request.
 class ShotReference {
  public:
   struct Settings {
@@ -33,14 +34,14 @@ class ShotReference {
   };
 
   void reset() { *this = ShotReference(); }
-  /// Those of the frame that begins in this clock, and the seed that was written last.
+  /// Settings for the frame that begins in this clock, with the last seed written.
   void set(const Settings& settings) { next_ = settings; }
   void set_seed(std::uint32_t seed) { seed_ = seed; }
 
-  /// One clock. Returns whether shot_o must be high in it.
+  /// Advances by one clock. Returns whether shot_o must be high in it.
   bool clock(const ShotClock& now);
 
-  /// The register's state when the last frame began.
+  /// State of the shift register when the last frame began.
   [[nodiscard]] std::uint32_t first_state() const { return first_state_; }
 
  private:
@@ -56,8 +57,8 @@ class ShotReference {
   std::uint32_t need_ = 0;            // acquisitions of the frame that the array has not begun
   std::uint32_t queued_ = 0;          // acquisitions that have begun to arrive, and the array has not begun
   bool owed_ = false;
-  bool rest_ = false;      // behind an abort, of the acquisition that the source was in
-  bool draining_ = false;  // the array takes what is no detection
+  bool rest_ = false;      // rest of the acquisition that the source was in at an abort
+  bool draining_ = false;  // the array takes lines without detections
 };
 
 }  // namespace dtof

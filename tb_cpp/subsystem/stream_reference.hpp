@@ -10,15 +10,15 @@
 
 namespace dtof {
 
-/// A timestamp of every column.
+/// One timestamp for every column.
 using Line = std::vector<Timestamp>;
 
-/// What happened, clock by clock at the ports: what ERROR and WARNING must say.
+/// Events at the ports, as ERROR and WARNING must show them.
 struct SubsystemEvents {
   bool underrun = false;
   bool overrun = false;
-  bool short_acquisition = false;  ///< tlast came early
-  bool long_acquisition = false;   ///< tlast came late
+  bool short_acquisition = false;  ///< tlast was early
+  bool long_acquisition = false;   ///< tlast was late
   bool timeout = false;
   bool stalled = false;
   bool aborted = false;
@@ -26,29 +26,28 @@ struct SubsystemEvents {
   bool operator==(const SubsystemEvents&) const = default;
 };
 
-/// What a subsystem seen from outside must make of its source's lines, as integration.md says: which of them
-/// the array gets, and in which place. It holds whole acquisitions, no memory of lines.
+/// Reference for the subsystem's line stream (docs/user/integration.md): which of the source's lines reach
+/// the array, and in which place. It stores whole acquisitions and does not model the line memory.
 class StreamReference {
  public:
   StreamReference(std::size_t acquisition_lines, Timestamp none)
       : acquisition_lines_(acquisition_lines), none_(none) {}
 
-  /// Reset, and what a bench changes between frames.
+  /// Resets the reference, including settings that a bench changes between frames.
   void reset();
   void set_release(std::size_t lines) { release_ = lines; }
-  /// What the subsystem was built with.
+  /// Sets the parameters with which the subsystem was built.
   void set_waits(bool clock_waits, bool source_waits) {
     clock_waits_ = clock_waits;
     source_waits_ = source_waits;
   }
   void set_watchdog(std::uint32_t clocks) { watchdog_ = clocks; }
 
-  /// One clock: what the ports show, in this order.
-  /// The array takes `line`; throws RtlError if it must not, or if it is another one.
+  /// The following functions describe one clock at the ports, in this order. take(): the array takes `line`;
+  /// throws RtlError if it must not, or if the line is a different one.
   void take(const Line& line);
-  /// Whether the array waits for an acquisition, and whether the sink refuses a word; throws RtlError if the
-  /// array waits although an acquisition is here, or if its clock rests although a line is. A timeout in the
-  /// clock of an abort is not told.
+  /// States of the array and sink. Throws RtlError if the array waits although an acquisition is available,
+  /// or if its clock stops although a line is available. A timeout in the clock of an abort is not reported.
   struct Waits {
     bool array_ready;
     bool array_valid;
@@ -58,40 +57,44 @@ class StreamReference {
     bool aborts;
   };
   void wait(const Waits& now);
-  /// `thrown`: in the clock of an abort or a flush, in which a source that cannot wait goes on.
+  /// The source's line is accepted. `thrown`: in the clock of an abort or a flush, when a source that cannot
+  /// wait continues.
   void accept(const Line& line, bool last, bool thrown);
-  /// The line that comes finds no room in a buffer of so many lines, and its acquisition goes with it.
+  /// The line is dropped because the buffer holds `buffer_lines` lines; the rest of its acquisition is
+  /// dropped, too.
   void drop(bool last, std::size_t buffer_lines);
   void begin();
   void done();
   void abort();
   void flush();
 
-  /// A line may be refused in this clock although there is room: the watchdog has expired in the last one.
+  /// True if a line may be refused in this clock although there is room: the watchdog expired in the last
+  /// clock.
   [[nodiscard]] bool expires() const { return expires_; }
-  /// The watchdog has ended the frame for the source in this clock.
+  /// True if the watchdog ended the frame for the source in this clock.
   [[nodiscard]] bool gave_up() const { return gave_up_; }
-  /// The array waits, for an acquisition or for a line inside one.
+  /// True if the array waits for an acquisition, or for a line inside one.
   [[nodiscard]] bool starved() const { return starved_; }
-  /// The array is inside an acquisition.
+  /// True if the array is inside an acquisition.
   [[nodiscard]] bool inside() const { return index_ > 0; }
-  /// Lines that wait for the array, and whether this is exact: nothing was thrown away.
+  /// Number of lines that wait for the array, and (next function) whether it is exact, i.e. no line was
+  /// discarded.
   [[nodiscard]] std::size_t waiting() const { return waiting_; }
   [[nodiscard]] bool exact() const { return exact_; }
-  /// The source's lines are thrown away up to the next tlast.
+  /// True if lines of the source are discarded up to the next tlast.
   [[nodiscard]] bool hunting() const { return hunting_; }
-  /// The source is not to be asked for an acquisition in this clock, behind `wait`.
+  /// True if it is too early, after `wait`, to ask the source for an acquisition in this clock.
   [[nodiscard]] bool early() const {
     return clock_waits_ && (rest_ || (source_index_ > 0 ? source_index_ < release_
                                                         : release_ == acquisition_lines_ && !starved_));
   }
-  /// Lines of the source's acquisition that have come.
+  /// Lines of the source's current acquisition that have arrived.
   [[nodiscard]] std::size_t source_index() const { return source_index_; }
-  /// Acquisitions in which the buffer ran empty, of the frame.
+  /// Acquisitions of the frame in which the buffer ran empty.
   [[nodiscard]] std::uint32_t underruns() const { return underruns_; }
   [[nodiscard]] SubsystemEvents& events() { return events_; }
-  /// Since reset; the number of lines may be smaller by `doubtful_lines`: an abort came while they were on
-  /// their way out.
+  /// Counts since reset. The number of lines may be smaller by `doubtful_lines`, which were being read when
+  /// an abort came.
   [[nodiscard]] std::uint64_t lost_lines() const { return lost_lines_; }
   [[nodiscard]] std::uint64_t doubtful_lines() const { return doubtful_lines_; }
   [[nodiscard]] std::uint64_t lost_acquisitions() const { return lost_acquisitions_; }
@@ -112,22 +115,22 @@ class StreamReference {
   bool clock_waits_ = false;
   bool source_waits_ = true;
   std::uint32_t watchdog_ = 0;
-  std::deque<Acquisition> acquisitions_;  // the array's first; the last one may not have ended
+  std::deque<Acquisition> acquisitions_;  // first: the array's current one; the last may be incomplete
   std::size_t waiting_ = 0;
   std::size_t source_index_ = 0;
   bool hunting_ = false;
-  bool rest_ = false;      // likewise, and neither an abort nor a timeout has ended the acquisition
-  bool late_ = false;      // the source's acquisition is one that the array has ended with an underrun
-  std::size_t index_ = 0;  // line of the array's acquisition
-  bool missing_ = false;   // the rest of it is dark
-  bool draining_ = false;  // the rest of the frame is
+  bool rest_ = false;      // as above, and neither an abort nor a timeout ended the acquisition
+  bool late_ = false;      // the source's acquisition was already ended for the array by an underrun
+  std::size_t index_ = 0;  // line within the array's acquisition
+  bool missing_ = false;   // the rest of the acquisition is dark
+  bool draining_ = false;  // the rest of the frame is dark
   bool running_ = false;
   bool starved_ = false;
   bool expires_ = false;
   bool gave_up_ = false;
   bool stalls_ = false;
   std::uint32_t waited_ = 0;
-  std::uint32_t withheld_ = 0;  // clocks in which an acquisition was here and not offered
+  std::uint32_t withheld_ = 0;  // clocks in which an acquisition was available and not offered
   std::uint32_t refused_ = 0;
   bool exact_ = true;
   std::uint32_t underruns_ = 0;

@@ -17,28 +17,27 @@ class VerilatedContext;
 
 namespace dtof {
 
-/// What the array in the subsystem took in a frame.
+/// Lines and events of a frame at the array in the subsystem.
 struct ArrayFrame {
   std::vector<Line>
-      lines;  ///< all acquisitions' one behind the other, before mask and gate, without dropped ones
-  std::uint64_t cycles = 0;          ///< from its start to done, both included; 0 while it is under way
-  std::uint32_t lost = 0;            ///< acquisitions in which the line buffer ran empty
-  std::vector<std::uint64_t> shots;  ///< clocks of shot_o, from the frame's start
+      lines;  ///< those of all acquisitions in order, before mask and gate, without dropped ones
+  std::uint64_t cycles = 0;  ///< clocks from start to done, both included; 0 while the frame is under way
+  std::uint32_t lost = 0;    ///< acquisitions in which the line buffer ran empty
+  std::vector<std::uint64_t> shots;  ///< clocks in which shot_o was high, from the frame's start
 };
 
-/// A subsystem with masters at all its ports, which checks in every clock that
-/// - the results keep their stream's protocol (ResultSink);
-/// - an acquisition begins when it is allowed to, and is never interrupted;
-/// - the array's clock rests while a line is late inside an acquisition, and no longer;
-/// - each line reaches the array in its place, or as no detection where StreamReference says so, but for
-/// those
-///   of the acquisitions that SETTLE drops at a frame's start;
-/// - a line is refused only when the buffer is full, or in the clock of a command, and never where the source
-///   cannot wait; an acquisition is dropped only there, and only when the buffer is full;
-/// - a shot is fired when ShotReference says so, and not otherwise.
+/// A subsystem with a bus master, source and sink at its ports. It checks in every clock:
+///  - The results keep the protocol of their stream (ResultSink).
+///  - An acquisition begins only when it may, and is never interrupted.
+///  - The array's clock stops exactly while a line is late inside an acquisition.
+///  - Each line reaches the array in its place, or as no detection where StreamReference says so; except
+///    lines of acquisitions that SETTLE drops at a frame's start.
+///  - A line is refused only if the buffer is full or in the clock of a command, and never if the source
+///    cannot wait. Only then an acquisition may be dropped, and only if the buffer is full.
+///  - A shot is fired exactly when ShotReference says so.
 class SubsystemBench {
  public:
-  /// Everything random follows from `seed`.
+  /// `seed` determines everything random.
   SubsystemBench(const CompiledSubsystem& subsystem, std::uint64_t seed);
   ~SubsystemBench();
   SubsystemBench(const SubsystemBench&) = delete;
@@ -54,37 +53,39 @@ class SubsystemBench {
   [[nodiscard]] const std::vector<ArrayFrame>& frames() const { return frames_; }
   [[nodiscard]] SubsystemEvents& events() { return reference_.events(); }
   [[nodiscard]] const StreamReference& reference() const { return reference_; }
-  /// Its SRAMs; none unless it was built with WRITABLE_SRAMS.
+  /// SRAMs of the subsystem; empty unless it was built with WRITABLE_SRAMS.
   [[nodiscard]] std::vector<RtlSram> srams() { return find_srams(*context_); }
-  /// shot_o of the last clock.
+  /// Value of shot_o in the last clock.
   [[nodiscard]] bool shot() const { return shot_; }
   [[nodiscard]] const ShotReference& shot_reference() const { return shot_reference_; }
   [[nodiscard]] bool interrupt() const { return *ports_.irq != 0; }
-  /// What it was built with: the array waits for a late line inside an acquisition; a source that cannot wait
-  /// loses whole acquisitions.
+  /// Parameters of the build. clock_waits: the array waits for a late line inside an acquisition.
+  /// source_waits: false if the source cannot wait and loses whole acquisitions.
   [[nodiscard]] bool clock_waits() const { return clock_waits_; }
   [[nodiscard]] bool source_waits() const { return source_waits_; }
-  /// Clocks in which the array waited for a line inside an acquisition, and acquisitions that were dropped.
+  /// Clocks in which the array waited for a line inside an acquisition, and (below) number of dropped
+  /// acquisitions.
   [[nodiscard]] std::uint64_t rests() const { return rests_; }
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
   [[nodiscard]] std::size_t buffer_lines() const { return buffer_lines_; }
   [[nodiscard]] bool axi_lite() const { return *ports_.axi_lite != 0; }
 
-  /// Two clocks of reset; the source forgets its lines, or is in another reset domain and keeps them.
+  /// Two clocks of reset. The source drops its lines, or keeps them if it is in another reset domain
+  /// (`source_too` false).
   void reset(bool source_too = true);
-  /// Throws RtlError for whatever the bench checks.
+  /// Runs one clock. Throws RtlError if a check fails.
   void clock();
   void clocks(std::uint64_t count);
-  /// Until `frames` frames more were received; throws RtlError after `limit` clocks.
+  /// Runs until `frames` more frames were received. Throws RtlError after `limit` clocks.
   void wait_for_frames(std::size_t frames, std::uint64_t limit = 200000);
 
   BusResponse read(std::uint32_t offset);
   BusResponse write(std::uint32_t offset, std::uint32_t data, std::uint8_t strobe = RegisterBus::kAllBytes);
-  /// Begins to write all bytes of a register; the clocks that follow carry the transfer out.
+  /// Begins to write all bytes of a register; the following clocks complete the transfer.
   void begin_write(std::uint32_t offset, std::uint32_t data) {
     bus_.write(offset, data, RegisterBus::kAllBytes);
   }
-  /// The same as `read` and `write` for a register that must be there: throws RtlError for an error response.
+  /// As `read` and `write`, for a register that exists: throws RtlError for an error response.
   std::uint32_t get(std::uint32_t offset);
   void set(std::uint32_t offset, std::uint32_t data);
 
@@ -92,7 +93,8 @@ class SubsystemBench {
   void run_transfer();
   void observe_lines();
   void take_array_line();
-  /// `here`: a line is, that nobody waits for; the array is offered none that SETTLE drops.
+  /// Checks what the array is offered. `here`: a line is available that nobody waits for. Acquisitions that
+  /// SETTLE drops must not be offered.
   void check_array_offer(bool here) const;
   void begin_frame();
   void observe_shot(ShotClock now);
@@ -106,9 +108,9 @@ class SubsystemBench {
     std::uint32_t settle = 0;
     ShotReference::Settings shot = {};
   };
-  /// Words of the frame that begins.
+  /// Number of words of the frame that begins.
   [[nodiscard]] std::size_t words() const;
-  /// RELEASE at reset, which is its largest value.
+  /// Reset value of RELEASE, which is its largest value.
   [[nodiscard]] std::size_t most_release() const {
     return clock_waits_ ? acquisition_lines_ : std::min(buffer_lines_, acquisition_lines_);
   }
@@ -132,11 +134,11 @@ class SubsystemBench {
   ShotReference shot_reference_;
   bool shot_ = false;
   std::vector<ArrayFrame> frames_;
-  std::uint32_t settle_left_ = 0;  // acquisitions of the frame that are still to be dropped
+  std::uint32_t settle_left_ = 0;  // acquisitions of the frame still to be dropped
   std::uint64_t cycle_ = 0;
   std::uint64_t begin_cycle_ = 0;
   bool array_held_ = false;   // a line was offered to the array and not taken
-  bool behind_reset_ = true;  // no clock yet
+  bool behind_reset_ = true;  // no clock since the last reset
 };
 
 }  // namespace dtof

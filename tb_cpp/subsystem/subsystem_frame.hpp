@@ -10,10 +10,10 @@
 
 namespace dtof {
 
-/// Reads out a frame with the Verilated subsystems that suit (find_subsystems), as run_frame_rtl does with an
-/// array: the C driver (driver/dtof.h) sets it up through APB, starts it and unpacks its result stream;
-/// source and sink never pause. Throws InputError as run_frame_rtl does, RtlError for an error that the
-/// subsystem tells.
+/// Reads out a frame with the Verilated subsystems of find_subsystems, as run_frame_rtl does with arrays. The
+/// C driver (driver/dtof.h) configures a subsystem through its register bus, starts it and unpacks its result
+/// stream. Source and sink never pause. Throws InputError as run_frame_rtl does, RtlError if the subsystem
+/// reports an error.
 RtlSourceFrame run_frame_subsystem(const StreamSource& source, const ReadoutParameters& parameters,
                                    int threads = 0, std::span<const int> columns = {},
                                    Progress* progress = nullptr);

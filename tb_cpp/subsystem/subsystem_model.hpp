@@ -6,10 +6,10 @@
 
 namespace dtof {
 
-/// One Verilated subsystem_testbench with its type erased: the ports by address, and eval().
+/// A Verilated subsystem_testbench behind a common interface: pointers to its ports, and eval().
 class SubsystemModel {
  public:
-  /// Where the model keeps its ports. Inputs are written before eval(), outputs read after it.
+  /// Pointers to the model's ports. Write inputs before eval() and read outputs after it.
   struct Ports {
     std::uint8_t* clock;
     std::uint8_t* reset_n;
@@ -48,7 +48,7 @@ class SubsystemModel {
 
     std::uint8_t* line_valid;
     const std::uint8_t* line_ready;
-    std::uint32_t* line_data;  ///< NP bits a column, column 0 lowest
+    std::uint32_t* line_data;  ///< NP bits per column, column 0 lowest
     std::size_t line_words;
     std::uint8_t* line_last;
 
@@ -59,18 +59,18 @@ class SubsystemModel {
     const std::uint8_t* result_last;
 
     const std::uint8_t* begin;             ///< the array's frame begins
-    const std::uint8_t* done;              ///< and ends
-    const std::uint8_t* abort;             ///< CONTROL.ABORT, in its clock
-    const std::uint8_t* flush;             ///< CONTROL.FLUSH, unless it is ignored
-    const std::uint32_t* watchdog;         ///< WATCHDOG as it stands
-    const std::uint8_t* commit;            ///< settings become valid behind this clock
-    const std::uint8_t* reseed;            ///< SHOT_SEED was written
-    const std::uint8_t* line_waits;        ///< a line is late inside an acquisition: the array's clock rests
-    const std::uint8_t* array_valid;       ///< the array is offered the line
-    const std::uint8_t* dropped;           ///< an acquisition found no room
+    const std::uint8_t* done;              ///< the array's frame ends
+    const std::uint8_t* abort;             ///< CONTROL.ABORT is written in this clock
+    const std::uint8_t* flush;             ///< CONTROL.FLUSH takes effect in this clock
+    const std::uint32_t* watchdog;         ///< present value of WATCHDOG
+    const std::uint8_t* commit;            ///< settings become valid after this clock
+    const std::uint8_t* reseed;            ///< SHOT_SEED is written in this clock
+    const std::uint8_t* line_waits;        ///< a line is late inside an acquisition: the array's clock stops
+    const std::uint8_t* array_valid;       ///< the line is offered to the array
+    const std::uint8_t* dropped;           ///< an acquisition was dropped for lack of room
     const std::uint8_t* array_line_valid;  ///< at the array's port
     const std::uint8_t* array_line_ready;
-    const std::uint32_t* array_line;  ///< as line_data, before mask and gate
+    const std::uint32_t* array_line;  ///< lines before mask and gate, in the format of line_data
   };
 
   SubsystemModel() = default;

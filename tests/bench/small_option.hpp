@@ -8,7 +8,7 @@
 
 namespace dtof {
 
-/// True if --small is among the arguments, from which it is taken: each benchmark then runs once, on less
+/// Removes --small from the arguments; returns whether it was there. Then each benchmark runs once, on less
 /// work.
 inline bool take_small_option(int& argc, char** argv) {
   char** const end =
@@ -18,7 +18,7 @@ inline bool take_small_option(int& argc, char** argv) {
   return small;
 }
 
-/// So long, or once.
+/// Runs a benchmark for `seconds`, or once if `small`.
 inline void run_for(benchmark::internal::Benchmark& bench, double seconds, bool small) {
   if (small) {
     bench.Iterations(1);

@@ -10,17 +10,16 @@
 
 namespace dtof {
 
-/// Probability of every position of a read-out's result for one pixel, without random numbers:
-/// result[code << FRACTION_BITS | fraction], sum 1 but for rounding.
+/// Probability of every result position of one pixel, computed without random numbers. The index is
+/// (code << FRACTION_BITS) | fraction; the sum is 1 up to rounding.
 ///
-/// Expected detections (photon/expected_detections.hpp) are exact; then
-///  - histogram read-outs: counts of different bins are taken as independent Poisson numbers, and the peak's
-///    distribution follows exactly (full bins and ties included), pass by pass;
-///  - pointer read-outs: the pointer is a Markov chain that makes one move per acquisition and slot; the
-///  slots
-///    of one acquisition are taken as independent.
-/// Throws InputError for illegal parameters, SLOTS or NP other than the sensor's, dead time, binning or
-/// coincidence.
+/// Expected detections (photon/expected_detections.hpp) are exact. Two approximations follow:
+///  - Histogram read-outs: counts of different bins are independent Poisson numbers. The peak's distribution
+///    follows exactly, pass by pass, with full bins and ties.
+///  - Pointer read-outs: the pointer is a Markov chain with one move per acquisition and slot. The slots of
+///    one acquisition are independent.
+/// Throws InputError for illegal parameters, for SLOTS or NP other than the sensor's, and for a sensor with
+/// dead time, binning or coincidence.
 std::vector<double> code_distribution(const SensorModel& sensor, const PixelRates& rates,
                                       const ReadoutParameters& parameters);
 
@@ -29,15 +28,15 @@ struct PredictedErrors {
   double relative_precision;      ///< standard deviation of |measured - true| / true (Eq. 3.14)
   double bias_m;                  ///< mean of measured - true
   double standard_deviation_m;    ///< of measured - true
-  double share_above_3_percent;   ///< of |measured - true| > 3 % of true
-  double share_above_10_percent;  ///< outlier rate
+  double share_above_3_percent;   ///< share of |measured - true| > 3 % of true
+  double share_above_10_percent;  ///< outlier rate: share of |measured - true| > 10 % of true
 };
-/// `distance_m` > 0.
+/// Errors of `distribution` (from code_distribution) for a target at `distance_m` > 0.
 PredictedErrors predict_errors(const std::vector<double>& distribution, const SensorModel& sensor,
                                const ReadoutParameters& parameters, double distance_m);
 
-/// Probability of every bin to be the peak (largest count, lowest index on a tie, 0 if all are 0) of a
-/// histogram whose counts are independent Poisson processes with these means at their end, and full at
+/// Probability that each bin is the peak: the largest count, the lowest index on a tie, bin 0 if all counts
+/// are 0. Counts are independent Poisson numbers with these `means` at the end of the pass. A bin is full at
 /// `limit` >= 1.
 std::vector<double> peak_distribution(const std::vector<double>& means, unsigned limit, FullBin full);
 

@@ -12,7 +12,7 @@
 
 namespace dtof {
 
-/// Photon models.
+/// Photon models of `--fidelity`.
 enum class Fidelity {
   kExact,     ///< PhotonSource: event by event
   kFast,      ///< FastPhotonSource: times from a table of each distinct pixel
@@ -24,43 +24,44 @@ std::string_view fidelity_name(Fidelity fidelity);
 
 /// How a read-out takes its photons.
 enum class PhotonUse {
-  kStream,   ///< acquisition by acquisition: the RTL, poolPointer, recordings
+  kStream,   ///< acquisition by acquisition: the RTL, the models of poolPointer, recordings
   kSampler,  ///< measurement by measurement: the models of all other read-outs
 };
 
-/// What `--fidelity auto` was asked for and is going to do with it.
+/// Input of `--fidelity auto`.
 struct FidelityRequest {
-  /// Largest difference from the exact model that any of these figures of a scene may have, for any of the
-  /// read-outs, in the mean over frames: root mean square and mean of the relative error of distance, share
-  /// of pixels off by more than 3 %, and by more than 10 %. >= 0 and finite; 0 asks for the exact model.
+  /// Largest difference from the exact model that is allowed, >= 0 and finite; 0 asks for the exact model.
+  /// Four figures of a scene are compared, for each read-out, in the mean over frames. These are root mean
+  /// square and mean of the relative distance error, and the shares of pixels with errors above 3 % and above
+  /// 10 %.
   double tolerance = 0.0;
   PhotonUse use = PhotonUse::kStream;
   std::span<const Readout> readouts;
 };
 
-/// The largest such difference that the fast model's sampler makes for a read-out: an upper limit measured by
-/// `dtof-study fidelity` (reports/fidelity.md) over eight scenes and three lights, which says whether it
-/// holds.
-/// Infinite for a read-out that has no sampler.
+/// Upper limit of the difference (FidelityRequest::tolerance) that the fast model's sampler makes for a
+/// read-out. `dtof-study fidelity` measured the limit over eight scenes and three light levels and tells
+/// whether it holds (reports/fidelity.md). Infinite for a read-out without a sampler.
 double fast_sampler_difference(Readout readout);
-/// Processor time of a frame with the fast model's sampler over that with exact streams, photons included,
-/// from the same report; infinite for a read-out that has no sampler.
+/// Processor time of a frame with the fast model's sampler divided by that with exact streams, photons
+/// included (reports/fidelity.md). Infinite for a read-out without a sampler.
 double fast_sampler_cost(Readout readout);
 
-/// True if the scene's rates, NP, SLOTS, number of acquisitions and width of the pulse in bins are within
-/// what fast_sampler_difference was measured for; no time gate was.
+/// True if fast_sampler_difference applies to this scene: rates, NP, SLOTS, acquisitions and pulse width in
+/// bins lie in the measured range, and the sensor has no time gate.
 bool within_measured_range(const PhotonSource& exact);
 
-/// The cheapest model with noise that keeps the request (a model without noise shows no frame as a sensor
-/// would). Streams are drawn by the exact model, which is as fast as any (reports/fidelity.md). Throws
+/// Chooses the cheapest photon model with noise that meets the request; a model without noise would show no
+/// realistic frame. Streams always get the exact model, which is as fast as any (reports/fidelity.md). Throws
 /// InputError for a tolerance outside its range.
 Fidelity choose_fidelity(const PhotonSource& exact, const FidelityRequest& request);
 
-/// `name` is a model's, or "auto": then `request` chooses. Throws InputError for another name.
+/// Photon model by its command-line name; "auto" calls choose_fidelity. Throws InputError for an unknown
+/// name.
 Fidelity parse_fidelity(std::string_view name, const PhotonSource& exact, const FidelityRequest& request);
 
-/// A model's source for the exact source's scene, seed and frame. Throws InputError where the model lacks
-/// something that the sensor has.
+/// Returns the model's source for the scene, seed and frame of `exact`. Throws InputError if the model does
+/// not support an effect of the sensor.
 std::unique_ptr<StreamSource> make_source(Fidelity fidelity, const PhotonSource& exact);
 
 }  // namespace dtof

@@ -8,11 +8,11 @@
 
 namespace dtof {
 
-/// What a pixel of these rates sees: the sensor's pulse (measured or Gaussian, jitter included), its slots
-/// (more than 16 count as 16) and acquisitions. Dead time, afterpulsing and unequal codes are left out.
+/// Pulse and background that a pixel with these rates sees. Includes a measured or Gaussian pulse, jitter,
+/// slots (more than 16 count as 16) and acquisitions. Dead time, afterpulsing and unequal codes are left out.
 PulseObservation pulse_observation(const SensorModel& sensor, const PixelRates& rates);
 
-/// The matched filter's parameters for that pixel; `rates` above 0.
+/// Parameters of the filter matched to that pixel. All `rates` must be above 0.
 MatchedFilterParameters matched_to(const SensorModel& sensor, const PixelRates& rates);
 
 }  // namespace dtof

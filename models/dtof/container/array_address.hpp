@@ -6,15 +6,15 @@
 
 namespace dtof {
 
-/// An array in a file, as a command line has it: "file.h5:/measured/cube", "file.npz:depth_m", or the file
-/// alone.
+/// Address of an array in a file, as typed on a command line: "file.h5:/measured/cube", "file.npz:depth_m",
+/// or the file alone.
 struct ArrayAddress {
   std::filesystem::path file;
-  std::string array;  ///< empty: not named
+  std::string array;  ///< empty: no array is named
 };
 
-/// What stands behind the last colon is the array's name where no file has the whole text as its name, and a
-/// file has what stands before.
+/// Splits `text` at its last colon into file and array. The whole text is the file if a file of that name
+/// exists, or if no file exists with the name before the colon.
 ArrayAddress parse_array_address(const std::string& text);
 
 }  // namespace dtof

@@ -10,33 +10,32 @@
 
 namespace dtof {
 
-// libhdf5 trusts what a file says, and a damaged one can bring it down: it works in a process of its own
-// (read_apart.hpp), which is then missed by nobody.
+// libhdf5 trusts what a file says, and a damaged file can crash it. All functions here therefore run it in a
+// process of its own (read_apart.hpp).
 
-/// Whether a file is HDF5: MATLAB's files of version 7.3 are. A pipe is none, since HDF5 is read here and
-/// there in the file.
+/// True for an HDF5 file, which includes MATLAB's version 7.3. False for a pipe, since HDF5 needs random
+/// access.
 bool is_hdf5(const std::filesystem::path& path);
 
-/// Names of the datasets of numbers, "/group/name", in the alphabetical order of each group; at most 1000.
-/// Throws InputError "<path>: <reason>" for a damaged file.
+/// Names of the numeric datasets, as "/group/name", alphabetical within each group; at most 1000. Throws
+/// InputError "<path>: <reason>" for a damaged file.
 std::vector<std::string> hdf5_names(const std::filesystem::path& path);
 
-/// A dataset of numbers in C order; without a name the only one. MATLAB's axes are in MATLAB's order: a
-/// variable (rows, columns, bins) has this shape. Throws InputError where there is no such dataset, where
-/// several are and none is named, and for a dataset that holds no numbers, is empty, damaged, has more than
-/// 2^27 elements or an integer beyond 2^53.
+/// Reads a numeric dataset in C order. With an empty `name` the file must have exactly one. A MATLAB variable
+/// (rows, columns, bins) keeps this shape. Throws InputError if the dataset is missing, ambiguous, not
+/// numeric, empty or damaged, has more than 2^27 elements, or holds an integer beyond 2^53.
 NpyArray read_hdf5_array(const std::filesystem::path& path, const std::string& name);
 
-/// A cell array of MATLAB's version 7.3: a vector of numbers in each cell.
+/// A cell array of MATLAB's version 7.3; each cell holds a vector of numbers.
 struct Hdf5Cells {
   std::vector<std::size_t> shape;          ///< rows, columns
   std::vector<std::vector<double>> cells;  ///< [row][column]
 };
 
-/// Whether the dataset is such a cell array; false where there is none of the name.
+/// True if the dataset is such a cell array; false also if no dataset has this name.
 bool is_hdf5_cell_array(const std::filesystem::path& path, const std::string& name);
 
-/// Throws InputError as above.
+/// Reads such a cell array. Throws InputError as read_hdf5_array does.
 Hdf5Cells read_hdf5_cells(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace dtof

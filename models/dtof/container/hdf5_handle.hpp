@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every reader of libhdf5 begins with. To be used in a process of its own (read_apart.hpp).
+// Wrappers of libhdf5 for all readers. Use them in a process of their own only (read_apart.hpp).
 #pragma once
 
 #include <hdf5.h>
@@ -13,7 +13,7 @@
 
 namespace dtof {
 
-/// The library prints what goes wrong unless it is told not to.
+/// Suppresses libhdf5's error output while the object lives.
 class QuietHdf5 {
  public:
   QuietHdf5() {
@@ -31,7 +31,7 @@ class QuietHdf5 {
   void* data_ = nullptr;
 };
 
-/// Something that the library has opened.
+/// Owns an identifier that libhdf5 returned, and closes it.
 class Hdf5Handle {
  public:
   Hdf5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -53,15 +53,15 @@ class Hdf5Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// Throws InputError.
+/// Opens a file for reading. Throws InputError "<path>: <reason>".
 Hdf5Handle open_hdf5_file(const std::filesystem::path& path);
 
-/// The text of an attribute or dataset of one string, of at most `longest` bytes; none if there is no such
-/// text.
+/// Text of an attribute, or of a dataset, that holds one string of at most `longest` bytes; none if there is
+/// no such text.
 std::optional<std::string> hdf5_attribute_text(hid_t object, const char* name, std::size_t longest);
 std::optional<std::string> hdf5_text(hid_t dataset, std::size_t longest);
 
-/// Extents as they stand in the file; none if the dataset is damaged or has no array.
+/// Extents as stored in the file; none if the dataset is damaged or is no array.
 std::optional<std::vector<std::size_t>> hdf5_extents(hid_t dataset);
 
 }  // namespace dtof

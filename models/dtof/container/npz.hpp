@@ -17,20 +17,19 @@ struct archive;
 
 namespace dtof {
 
-/// Whether a file begins as a ZIP archive does.
+/// True if `contents` begin as a ZIP archive does.
 bool is_zip(std::string_view contents);
 
-/// Names of the arrays in an archive of NumPy (np.savez, np.savez_compressed), without their ".npy", in the
-/// file's order. `path` names the file in refusals. Throws InputError "<path>: <reason>" for a damaged
-/// archive.
+/// Names of the arrays in a NumPy archive (np.savez, np.savez_compressed), without ".npy", in file order.
+/// `path` is for error messages. Throws InputError "<path>: <reason>" for a damaged archive.
 std::vector<std::string> npz_names(const std::filesystem::path& path, std::string_view contents);
 
-/// The array `name`, as parse_npy reads it; without a name the only one. Throws InputError where there is no
-/// such array, and where several are and none is named.
+/// Reads the array `name` as parse_npy does. With an empty `name` the archive must have exactly one array.
+/// Throws InputError if the array is missing or ambiguous.
 NpyArray parse_npz(const std::filesystem::path& path, std::string_view contents, const std::string& name);
 
-/// Writes an archive for numpy.load; equal arrays give equal files. It appears whole with `commit`, or not at
-/// all (AtomicFile).
+/// Writes an archive for numpy.load; equal arrays give equal files. The file appears whole at `commit`, or
+/// not at all (AtomicFile).
 class NpzWriter {
  public:
   explicit NpzWriter(const std::filesystem::path& path);
@@ -40,7 +39,7 @@ class NpzWriter {
   NpzWriter& operator=(NpzWriter&&) = delete;
   ~NpzWriter();
 
-  /// Their number must be the product of `shape` (std::logic_error).
+  /// Adds an array in C order. Throws std::logic_error unless values.size() is the product of `shape`.
   void add(const std::string& name, std::span<const std::size_t> shape, std::span<const double> values);
   void add(const std::string& name, std::span<const std::size_t> shape, std::span<const float> values);
   void commit();
@@ -52,8 +51,8 @@ class NpzWriter {
 
   std::filesystem::path path_;
   AtomicFile file_;
-  std::exception_ptr failure_;  ///< of the file, which must not leave through the library's code
-  bool abandoned_ = false;      ///< nothing is written any more
+  std::exception_ptr failure_;  ///< kept, since exceptions must not cross libarchive
+  bool abandoned_ = false;      ///< after an error: nothing more is written
   std::unique_ptr<archive, int (*)(archive*)> archive_;
 };
 

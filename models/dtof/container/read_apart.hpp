@@ -10,25 +10,25 @@
 
 namespace dtof {
 
-/// What a reader in a process of its own gives back.
+/// Result that a reader returns from its own process.
 struct ReadAnswer {
   std::vector<std::size_t> sizes = {};
   std::vector<double> values = {};
   std::vector<std::string> names = {};
 };
 
-/// The answer of `read`, which runs in a process of its own: a library that a damaged file brings down takes
-/// only that process along. Throws InputError as `read` does, and "<path>: damaged: ..." where the process
-/// ended without an answer.
+/// Runs `read` in a process of its own and returns its result, so that a crash in a library does not end the
+/// program. Throws InputError as `read` does, and "<path>: damaged: ..." if the process ended without a
+/// result.
 ReadAnswer read_apart(const std::filesystem::path& path, const std::function<ReadAnswer()>& read);
 
-/// A part of what is longer than memory.
+/// One piece of data that may be larger than memory.
 using ReadPiece = std::vector<std::uint64_t>;
 using GivePiece = std::function<void(const ReadPiece&)>;
 
-/// The same for what comes in pieces: `read` gives each to the function that it is called with, in a process
-/// of its own, and `take` has each here, in the same order, while the next one is read. An exception of
-/// `take` ends the other process. Throws InputError as above; pieces before it have been taken.
+/// Runs `read` in a process of its own and passes each piece that it gives to `take`, in the same order.
+/// `take` runs in the caller's process while the next piece is read; an exception from it ends the other
+/// process. Throws InputError as read_apart does, after the pieces read so far.
 void read_pieces_apart(const std::filesystem::path& path, const std::function<void(const GivePiece&)>& read,
                        const std::function<void(const ReadPiece&)>& take);
 

@@ -9,51 +9,52 @@
 
 namespace dtof {
 
-/// What a file holds, as far as a conversion goes.
+/// Kind of an input file, as far as conversion is concerned.
 enum class InputKind {
   kMap,          ///< PNG, PFM: distances
-  kArray,        ///< NPY, NPZ, HDF5, numbers of MAT: a map or histograms, which their shape does not tell
+  kArray,        ///< NPY, NPZ, HDF5, numeric MAT: a map or histograms; the shape alone does not decide
   kMeasurement,  ///< TDC stream, photon times, histograms of a sensor
   kTimeTags      ///< PTU, HT3
 };
 
-/// What a file becomes, by its name's ending.
+/// Kind of the output file, by the ending of its name.
 enum class OutputKind {
   kMap,     ///< .png, .pfm
   kPoints,  ///< .ply, .pcd
   kNpy,     ///< .npy
   kNpz,     ///< .npz
-  kCsv      ///< .csv: a TDC stream, of time tags their events
+  kCsv      ///< .csv: a TDC stream; for time tags, their events
 };
 
 struct ConversionOptions {
   std::string out = {};
-  RecordingOptions recording = {};                       ///< `file` is the input
-  std::optional<double> metres_per_unit = std::nullopt;  ///< of a map; none: as read_depth_image has it
+  RecordingOptions recording = {};  ///< `file` is the input
+  /// Scale of a map; none: the default of read_depth_image.
+  std::optional<double> metres_per_unit = std::nullopt;
   std::string confidence =
       {};  ///< a file with the confidence of each pixel; empty: none, or the archive's own
-  std::string amplitude = {};              ///< likewise
-  double degrees_per_pixel = kPixelAngle;  ///< of a point cloud
-  bool text = false;                       ///< a point cloud as text
+  std::string amplitude = {};  ///< file with each pixel's amplitude; empty: none, or the archive's own
+  double degrees_per_pixel = kPixelAngle;  ///< for a point cloud
+  bool text = false;                       ///< write a point cloud as text
 };
 
-/// A file that has been looked at.
+/// An input file whose kind is known.
 struct ConversionInput {
   InputKind kind = InputKind::kArray;
-  RecordingFile file = {};  ///< of a map: nothing, it is read when it is converted
+  RecordingFile file = {};  ///< contents; empty for a map, which is read during conversion
 };
 
-/// Throws InputError for a name that ends with none of the endings.
+/// Kind by the ending of `out`. Throws InputError for an unknown ending.
 OutputKind output_kind(const std::string& out);
 
-/// Reads the input (pieces of what is read in pieces) and finds out what it is. Throws InputError.
+/// Finds the kind of the input and reads it, except formats that are read in pieces. Throws InputError.
 ConversionInput open_conversion(const ConversionOptions& options);
 
-/// Why such an input cannot become such an output; empty if it can.
+/// Why the input cannot be converted to this output; empty if it can.
 std::string conversion_obstacle(InputKind input, OutputKind output);
 
-/// Writes `options.out`, which appears whole or not at all. Returns a sentence on what is in the file. Throws
-/// InputError "<file>: <reason>".
+/// Converts the input and writes `options.out`, which appears whole or not at all. Returns a sentence that
+/// describes the file. Throws InputError "<file>: <reason>".
 std::string convert(const ConversionOptions& options, ConversionInput input);
 
 }  // namespace dtof

@@ -11,21 +11,21 @@
 
 namespace dtof {
 
-/// Distances with what else is known of each pixel.
+/// Distances and the other known values of each pixel.
 struct ConvertedMap {
   DepthImage depth;
-  std::vector<PointField> fields;  ///< confidence, amplitude
+  std::vector<PointField> fields;  ///< confidence and amplitude, where known
 };
 
-/// Whether a file begins as a PNG or PFM does.
+/// True if `start` begins as a PNG or PFM file does.
 bool starts_as_image(std::string_view start);
 
-/// The map of the input with the fields that the options name. An archive's map named depth_m or x_depth_m
-/// brings the archive's confidence or x_confidence along, likewise amplitude. Throws InputError for a field
-/// of another size than the map.
+/// Reads the input's map and the fields that `options` name. An archive's map depth_m or x_depth_m brings
+/// confidence or x_confidence from the same archive, likewise amplitude. Throws InputError if a field and the
+/// map differ in size.
 ConvertedMap read_converted_map(const ConversionOptions& options, const ConversionInput& input);
 
-/// Writes a PNG or PFM of the distances.
+/// Writes the distances as PNG or PFM, by the ending of `out`.
 void write_converted_map(const std::string& out, const DepthImage& depth);
 
 }  // namespace dtof

@@ -24,7 +24,7 @@ struct Detection {
   bool operator==(const Detection&) const = default;
 };
 
-/// An allocator whose new elements have no value until they are written: for rows that are written in place.
+/// Allocator that leaves new elements uninitialised; ColumnStream writes its rows in place.
 template <typename T>
 class UnwrittenAllocator : public std::allocator<T> {
  public:
@@ -56,9 +56,10 @@ class ColumnStream {
     std::copy(detections.begin(), detections.end(), detections_.begin() + static_cast<std::ptrdiff_t>(begin));
     row_end_.push_back(detections_.size());
   }
-  /// Makes room for `detections` in all.
+  /// Reserves memory for `detections` in all rows together.
   void reserve(std::size_t detections) { detections_.reserve(detections); }
-  /// Room for the next row, to be written from its begin on; `finish_row` keeps the first `count`.
+  /// Returns space for up to `most` detections of the next row; write from its beginning. `finish_row(count)`
+  /// then keeps the first `count`.
   std::span<Detection> next_row(std::size_t most) {
     const std::size_t begin = row_end_.empty() ? 0 : row_end_.back();
     detections_.resize(begin + most);
@@ -68,7 +69,7 @@ class ColumnStream {
     detections_.resize((row_end_.empty() ? 0 : row_end_.back()) + count);
     finish_row();
   }
-  /// Appends one detection to the row that is being built; `finish_row` closes it.
+  /// Appends one detection to the current row; `finish_row` closes the row.
   void append(Detection detection) { detections_.push_back(detection); }
   void finish_row() { row_end_.push_back(detections_.size()); }
 
@@ -91,10 +92,10 @@ class ColumnStream {
   std::vector<std::size_t> row_end_;
 };
 
-/// The stream of a frame whose first `acquisitions` were dropped: acquisition 0 is the first one behind them.
+/// Returns `stream` without its first `acquisitions`; the numbers of the others fall by as much.
 ColumnStream without_first(const ColumnStream& stream, std::uint32_t acquisitions);
 
-/// Neighbouring rows of an array: first, first + 1, .. first + count - 1.
+/// A range of neighbouring rows: first .. first + count - 1.
 struct RowRange {
   int first = 0;  ///< >= 0
   int count = 0;  ///< >= 0
@@ -102,8 +103,8 @@ struct RowRange {
   bool operator==(const RowRange&) const = default;
 };
 
-/// Gives column i of several, which are asked for once each, from left to right. The stream is valid until
-/// the next call, so that a reader of many columns holds one.
+/// Returns the stream of column `column`. Callers ask for each column once, from left to right. The stream is
+/// valid until the next call, so a reader needs memory for one column only.
 using ColumnReader = std::function<const ColumnStream&(int column)>;
 
 /// Returns a reader over columns that are already in memory. The columns must outlive the reader.
@@ -111,7 +112,7 @@ inline ColumnReader reader_of(std::span<const ColumnStream> columns) {
   return [columns](int column) -> const ColumnStream& { return columns[static_cast<std::size_t>(column)]; };
 }
 
-/// Produces the TDC stream of a frame, any column alone and from any thread.
+/// Source of a frame's TDC stream. Any column can be made alone and from any thread.
 class StreamSource {
  public:
   StreamSource() = default;
@@ -124,11 +125,11 @@ class StreamSource {
   [[nodiscard]] virtual int columns() const = 0;
   [[nodiscard]] virtual int rows() const = 0;
   [[nodiscard]] virtual std::uint32_t acquisitions() const = 0;
-  /// Stream of column `index` (0 .. columns() - 1); rows() rows. Thread-safe.
+  /// Returns the stream of column `index` (0 .. columns() - 1) with rows() rows. Thread-safe.
   [[nodiscard]] virtual ColumnStream column(int index) const = 0;
-  /// The same detections of these rows alone (within 0 .. rows() - 1): row 0 of the result is row
-  /// `rows.first`. Thread-safe. This one makes the whole column; sources that draw photons draw only those
-  /// needed. Throws InputError if `column` lacks one of the rows.
+  /// Returns the same detections for `rows` alone (within 0 .. rows() - 1); row 0 of the result is row
+  /// `rows.first`. Thread-safe. This default makes the whole column; sources of photons draw the needed ones
+  /// only. Throws InputError if `column` lacks one of the rows.
   [[nodiscard]] virtual ColumnStream column_rows(int index, RowRange rows) const;
 };
 

@@ -11,8 +11,9 @@
 
 namespace dtof {
 
-/// Another source's streams, drawn once for everybody who reads the same rows of a column, as long as they
-/// fit into the memory allowed; what does not fit is drawn again each time. The source must outlive this one.
+/// Cache around another source: draws each column's rows once and keeps the stream for later reads of the
+/// same rows. Streams that exceed the memory limit are drawn again at each read. `source` must outlive this
+/// object. Thread-safe.
 class KeptStreams final : public StreamSource {
  public:
   explicit KeptStreams(const StreamSource& source, std::size_t most_bytes = kMostBytes);
@@ -23,10 +24,10 @@ class KeptStreams final : public StreamSource {
   [[nodiscard]] ColumnStream column(int index) const override;
   [[nodiscard]] ColumnStream column_rows(int index, RowRange rows) const override;
 
-  /// The column's memory is free again; who reads the column next draws it anew.
+  /// Frees the memory of a column's stream; the next read draws the stream again.
   void forget(int index);
 
-  /// A frame of 200 x 160 pixels and 3,333 acquisitions at 14 klux takes 0.4 GB.
+  /// Default memory limit, bytes. A frame of 200 x 160 pixels and 3,333 acquisitions at 14 klux takes 0.4 GB.
   static constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
 
  private:

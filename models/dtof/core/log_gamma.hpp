@@ -5,7 +5,7 @@
 
 namespace dtof {
 
-/// ln |Gamma(x)|. std::lgamma writes the sign to a global variable, which threads would share.
+/// ln |Gamma(x)|, thread-safe. (std::lgamma writes the sign to a global variable.)
 inline double log_gamma(double x) {
   int sign = 0;
   return ::lgamma_r(x, &sign);

@@ -6,12 +6,12 @@
 
 namespace dtof {
 
-/// Processor count the machine offers, at least 1.
+/// Number of processors of the machine, at least 1.
 int hardware_threads();
 
-/// Calls `body(index)` for every index in [0, count) on at most `threads` threads (0 = all processors).
-/// `body` must not depend on order. The first exception stops the rest and is rethrown; an interruption
-/// (core/progress.hpp) is thrown as Interrupted.
+/// Calls `body(index)` for every index in [0, count) on at most `threads` threads (0 = all processors). The
+/// order of the calls is not defined. The first exception stops the remaining calls and is rethrown. An
+/// interruption (core/progress.hpp) is thrown as Interrupted.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
 
 }  // namespace dtof

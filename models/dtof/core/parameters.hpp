@@ -11,72 +11,76 @@
 
 namespace dtof {
 
-/// Throws InputError naming the legal names.
+/// Read-out by its command-line name. Throws InputError that lists the known names.
 Readout parse_readout(std::string_view name);
 
-/// What decode takes from each coarse bin's sum over a group and its neighbours, in units of
-/// pool_template_unit(): the TEMPLATE registers of poolPointer (docs/reference/poolpointer.md, Template).
+/// TEMPLATE registers of poolPointer (docs/reference/poolpointer.md, Template), in units of
+/// pool_template_unit(). The decode step subtracts entry b from coarse bin b's sum over a group and its
+/// neighbours.
 using PoolTemplate = std::array<std::uint8_t, 32>;
-/// 2^(COUNT_WIDTH - 5), at least 1: 255 units are more than the largest sum.
+/// Unit of a TEMPLATE entry, in counts: 2^(COUNT_WIDTH - 5), at least 1. 255 units exceed the largest sum.
 constexpr int pool_template_unit(int count_width) { return count_width > 5 ? 1 << (count_width - 5) : 1; }
 
 /// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer.md).
 /// Lengths are fractions of a coarse bin, a 32nd of the range.
 struct PoolPointerParameters {
   int group_size =
-      4;           ///< GROUP_SIZE, rows of a group, which shares a coarse histogram, a power of two, 4 .. 32
-  int labels = 5;  ///< candidate depths of a group, 2 .. 8
-  int score_bits = 4;  ///< width of a candidate's score in a pixel word, 1 .. 4
+      4;           ///< GROUP_SIZE: rows of a group, which shares a coarse histogram; a power of two, 4 .. 32
+  int labels = 5;  ///< LABELS: candidate depths of a group, 2 .. 8
+  int score_bits = 4;  ///< SCORE_BITS: width of a candidate's score in a pixel word, 1 .. 4
   int offset_bits =
-      6;               ///< leader's offset in the track phase, 32nds of a coarse bin, signed, 2 .. 6; 0: none
-  int count_bits = 7;  ///< ADVANTAGE_WIDTH: the leader's advantage in the pointer phase, 4 or 7
-  /// The unit of the leader's pointer is 2^(pointer_shift - 11) coarse bins; 0 .. 2, or 0 .. 4 if count_bits
-  /// is 4.
+      6;  ///< OFFSET_BITS: width of the leader's offset (signed, 32nds of a coarse bin), 2 .. 6; 0: none
+  int count_bits = 7;  ///< ADVANTAGE_WIDTH: bits of the leader's advantage in the pointer phase, 4 or 7
+  /// POINTER_SHIFT: the leader's pointer has the unit 2^(pointer_shift - 11) coarse bins; 0 .. 2, or 0 .. 4
+  /// if count_bits is 4.
   int pointer_shift = 1;
-  bool rival_moves = true;  ///< the rival has a pointer of 7 bits; else it stays at its candidate
-  /// CELL_SHIFT: cells of a settled pointer have 2^cell_shift positions, 8 .. 10
+  /// RIVAL_MOVES: true: the rival has a pointer of 7 bits; false: it stays at its candidate.
+  bool rival_moves = true;
+  /// CELL_SHIFT: cells around a settled pointer have 2^cell_shift positions; 8 .. 10.
   int cell_shift = 9;
-  bool second_target = false;  ///< SECOND_TARGET: a result has the position of the label that lost, too
-  bool prior = false;          ///< PRIOR: the array keeps which candidates a frame has used, for the next one
-  int coarse_share = 14;       ///< 64ths of the frame: coarse phase
-  int track_share = 20;        ///< 64ths of the frame: track phase
-  int engine_columns = 34;     ///< ENGINE_COLUMNS, columns that share an engine and hear each other, even
-  bool smooth = true;          ///< S1 is on
-  PoolTemplate coarse_template{};  ///< TEMPLATE registers, of crosstalk and fog; 0: none
+  bool second_target = false;  ///< SECOND_TARGET: a result also has the position of the losing label
+  /// PRIOR: the array keeps the candidates that a frame used, as a prior for the next frame.
+  bool prior = false;
+  int coarse_share = 14;  ///< COARSE_SHARE: length of the coarse phase, 64ths of the frame
+  int track_share = 20;   ///< TRACK_SHARE: length of the track phase, 64ths of the frame
+  /// ENGINE_COLUMNS: columns that share an engine and use each other's results; even.
+  int engine_columns = 34;
+  bool smooth = true;              ///< smoothing S1 is on
+  PoolTemplate coarse_template{};  ///< TEMPLATE registers for crosstalk and fog; 0: no correction
 
   static PoolPointerParameters defaults(Readout readout);
-  /// Throws InputError; `count_width`: bits of a coarse bin.
+  /// Throws InputError if a parameter is outside its range. `count_width`: bits of a coarse bin.
   void validate(int count_width) const;
-  /// Bits of a pixel word.
+  /// Width of a pixel word, bits.
   [[nodiscard]] int word_bits() const;
-  /// Highest bits of a group's background that its word keeps: 4 to 6, as many as two pixel words leave
-  /// beside the candidates.
+  /// Bits of the group's background in a group word (the highest ones): 4 to 6, as many as two pixel words
+  /// leave beside the candidates.
   [[nodiscard]] int background_bits() const;
-  /// Bits of a candidate's significance that a group's word keeps, as many as two pixel words leave: 3, 2 or
-  /// none, and none with an advantage of 4 bits or a rival that rests. Without it a result's confidence is
-  /// its margin.
+  /// Bits of a candidate's significance in a group word: 3, 2 or 0, as many as two pixel words leave. 0 if
+  /// ADVANTAGE_WIDTH is 4 or RIVAL_MOVES is 0. With 0 bits, a result's confidence is its margin.
   [[nodiscard]] int significance_bits() const;
-  /// Halves of a memory word that eight coarse bins of `count_width` bits take, 1 or 2.
+  /// Memory half-words for eight coarse bins of `count_width` bits: 1 or 2.
   [[nodiscard]] int bin_halves(int count_width) const;
   bool operator==(const PoolPointerParameters&) const = default;
 };
 
-/// Ends of a pool read-out's phases in a frame, the schedule registers that a driver writes.
+/// Ends of a pool read-out's phases, in acquisitions; the driver writes these values to the schedule
+/// registers.
 struct PoolSchedule {
-  std::uint32_t coarse_end;
-  std::uint32_t track_end;
+  std::uint32_t coarse_end;  ///< first acquisition after the coarse phase
+  std::uint32_t track_end;   ///< first acquisition after the track phase
 
   PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters);
 };
 
-/// Rows of a column of the thesis's array, and of the compiled ones.
+/// Rows of a column in the thesis's array and in the compiled arrays.
 inline constexpr int kArrayRows = 160;
 
-/// Bits of a group's background in a pool read-out, 0 .. 39.
+/// Full width of a group's background in a pool read-out, whose values are 0 .. 39.
 inline constexpr int kPoolBackgroundBits = 6;
 
-/// Digital time gate: a timestamp x with begin <= x < end counts, any other is no detection. Codes, 0 ..
-/// 2^NP - 1; with end <= begin nothing counts.
+/// Digital time gate in codes 0 .. 2^NP - 1. A timestamp x counts if begin <= x < end; any other is no
+/// detection. With end <= begin nothing counts.
 struct CodeGate {
   int begin = 0;
   int end = 0;
@@ -85,7 +89,8 @@ struct CodeGate {
   bool operator==(const CodeGate&) const = default;
 };
 
-/// Parameters of a read-out, named as the RTL's (spec section 1; ranges in docs/reference/readouts.md).
+/// Parameters of a read-out, with the names of the RTL (spec section 1; ranges in
+/// docs/reference/readouts.md).
 struct ReadoutParameters {
   Readout readout = Readout::kEzPointer;
   int np = 10;               ///< NP, bits of a timestamp
@@ -97,30 +102,30 @@ struct ReadoutParameters {
   int confidence_width = 4;  ///< CONFIDENCE_WIDTH (pointer read-outs)
   int guard = 46;            ///< GUARD, bins (hisPointer v2)
   bool window_centred = false;  ///< WINDOW_CENTRED (SiFH)
-  /// TIME_GATE = 1 and what gate_begin_i and gate_end_i say when the frame starts.
+  /// Values of gate_begin_i and gate_end_i at the frame's start; none: TIME_GATE = 0.
   std::optional<CodeGate> time_gate;
   PoolPointerParameters pool;  ///< pool read-outs
 
-  /// Spec defaults: NB = floor(NP/2) + 1 for SiFH (Eq. 2.3), floor(NP/2) for FiFH and hisPointer,
-  /// min(NP, 6) for PiFH, NP for the histogram; GUARD = ceil(FWHM / T_res) scaled to NP. The pool read-outs
-  /// have NB = 5, COUNT_WIDTH = 7 and FRACTION_BITS = 16 - NP, which is no free choice there.
-  /// Throws InputError for an NP outside 3 to 16.
+  /// Default parameters. NB = floor(NP/2) + 1 for SiFH (Eq. 2.3), floor(NP/2) for FiFH and hisPointer,
+  /// min(NP, 6) for PiFH, NP for the histogram. GUARD = ceil(FWHM / T_res) scaled to NP. The pool read-outs
+  /// have NB = 5, COUNT_WIDTH = 7 and FRACTION_BITS = 16 - NP, which is fixed. Throws InputError for an NP
+  /// outside 3 to 16.
   static ReadoutParameters defaults(Readout readout, int np = 10);
 
   /// Throws InputError with the RTL's own sentence and the value if a parameter is outside its range.
   void validate() const;
 
-  /// Neighbouring columns whose pixels hear each other, counted from column 0: those of a pool read-out's
-  /// engine, else 1.
+  /// Number of neighbouring columns, counted from column 0, whose pixels use each other's results: the
+  /// columns of a pool read-out's engine, else 1.
   [[nodiscard]] int columns_together() const { return is_pool_readout(readout) ? pool.engine_columns : 1; }
-  /// Bins of the histogram that a raw frame shows (RAW_HISTOGRAM); 0 if the read-out holds none that is whole
-  /// at a frame's end.
+  /// Bins of the histogram in a raw frame (RAW_HISTOGRAM); 0 if the read-out holds no whole histogram at the
+  /// frame's end.
   [[nodiscard]] int raw_bins() const;
-  /// 2^NP.
+  /// Number of codes, 2^NP.
   [[nodiscard]] int code_count() const { return 1 << np; }
-  /// 2^NP - 1.
+  /// The no-detection code, 2^NP - 1.
   [[nodiscard]] int no_detection() const { return (1 << np) - 1; }
-  /// E.g. "sifh NP=10 SLOTS=2 NB=6 COUNT_WIDTH=10 WINDOW_CENTRED=0".
+  /// For messages, e.g. "sifh NP=10 SLOTS=2 NB=6 COUNT_WIDTH=10 WINDOW_CENTRED=0".
   [[nodiscard]] std::string to_string() const;
 
   bool operator==(const ReadoutParameters&) const = default;

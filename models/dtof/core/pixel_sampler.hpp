@@ -9,8 +9,8 @@
 
 namespace dtof {
 
-/// Draws one pixel's timestamps measurement by measurement, without numbering acquisitions: what a read-out
-/// model needs that is given photons only inside its gate. Not thread-safe.
+/// Draws one pixel's timestamps measurement by measurement, without acquisition numbers. Suits read-out
+/// models that need only the photons inside a window. Not thread-safe.
 class PixelSampler {
  public:
   PixelSampler() = default;
@@ -20,7 +20,7 @@ class PixelSampler {
   PixelSampler& operator=(PixelSampler&&) = delete;
   virtual ~PixelSampler() = default;
 
-  /// The next draws are of this pixel.
+  /// Selects the pixel of the next draws.
   virtual void start_pixel(int column, int row) = 0;
   /// Timestamps first <= x < last (0 <= first, last <= 2^NP) of the pixel's next `acquisitions` acquisitions.
   /// Valid until the next call.
@@ -28,10 +28,10 @@ class PixelSampler {
                                           std::int32_t last) = 0;
 };
 
-/// A source that can be sampled pixel by pixel as well; not the same random numbers as its streams.
+/// A source that can also be sampled pixel by pixel. Samples and streams come from different random numbers.
 class SampledSource : public StreamSource {
  public:
-  /// One per thread.
+  /// Makes a sampler; each thread needs its own.
   [[nodiscard]] virtual std::unique_ptr<PixelSampler> pixel_sampler() const = 0;
 };
 

@@ -11,13 +11,13 @@
 
 namespace dtof {
 
-/// Makes SIGINT and SIGTERM set a flag that `check_interruption` turns into an exception.
+/// Makes SIGINT and SIGTERM set the flag that `check_interruption` reads.
 void install_interruption_handler();
-/// Throws Interrupted after SIGINT or SIGTERM, and once the flag of the thread's StopScope is set.
+/// Throws Interrupted after SIGINT or SIGTERM, or once the flag of the thread's StopScope is set.
 void check_interruption();
 
-/// For a caller that has signals of its own, as Python has: while it lives, the flag stops this thread's
-/// work, that of its `parallel_for` included. The flag must outlive it.
+/// For callers with signals of their own, such as Python: while the object lives, setting the flag stops this
+/// thread's work, including its `parallel_for`. The flag must outlive the object.
 class StopScope {
  public:
   explicit StopScope(const std::atomic<bool>* flag);
@@ -34,17 +34,17 @@ class StopScope {
   const std::atomic<bool>* before_;
 };
 
-/// E.g. "columns 40 %, 3 min left"; the time left assumes that the rest goes as fast as what is done, and is
-/// left out in the first second. `done` is at most `total`, which is above 0.
+/// Progress text, e.g. "columns 40 %, 3 min left". The time left assumes constant speed and is omitted in the
+/// first second. `done` is at most `total`, which is above 0.
 std::string progress_text(std::string_view title, std::size_t done, std::size_t total,
                           std::chrono::duration<double> elapsed);
 
-/// How far a work is, on standard error: one line that is drawn anew on a terminal, else, so that a log shows
-/// that the program is alive, a line at most every `log_interval` of the whole program. With an observer,
-/// nothing is written. Thread-safe.
+/// Shows progress on standard error. On a terminal one line is redrawn. Otherwise a line is written at most
+/// every `log_interval` of the whole program, so that a log shows that the program is alive. With an
+/// observer, nothing is written. Thread-safe.
 class Progress {
  public:
-  /// Is told what is done of how much, by any thread, one after the other.
+  /// Called with the work done and the total work. Calls come from any thread, one at a time.
   using Observer = std::function<void(std::size_t done, std::size_t total)>;
 
   Progress(std::size_t total, Observer observer);
@@ -54,7 +54,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   Progress(Progress&&) = delete;
   Progress& operator=(Progress&&) = delete;
-  /// Erases the line on a terminal.
+  /// Erases the progress line on a terminal.
   ~Progress();
   void advance(std::size_t steps = 1);
 

@@ -10,13 +10,14 @@
 
 namespace dtof {
 
-/// Counter-based generator (Philox4x32-10, Salmon et al., SC 2011): the numbers depend only on the seed and
-/// the four stream words, so any pixel of any frame is generated alone. Satisfies UniformRandomBitGenerator.
+/// Counter-based generator (Philox4x32-10, Salmon et al., SC 2011). The numbers depend only on the seed and
+/// the four stream words, so any pixel of any frame can be generated alone. Satisfies
+/// UniformRandomBitGenerator.
 class CounterRandom {
  public:
   using result_type = std::uint32_t;
 
-  /// `purpose` keeps uses apart (photons, resampling, tests); `a`, `b` e.g. frame and pixel index.
+  /// `purpose` separates uses (photons, resampling, tests); `a` and `b` are e.g. frame and pixel index.
   CounterRandom(std::uint64_t seed, std::uint32_t purpose, std::uint32_t a, std::uint32_t b)
       : key_{{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U)}},
         counter_{{0, purpose, a, b}} {}
@@ -32,9 +33,9 @@ class CounterRandom {
     }
     return block_[next_++];
   }
-  /// Fills `words`, an even number of them, with whole blocks of two; unlike calls one by one, the blocks
-  /// overlap in the processor (vectors of them where it has AVX2: the same words). Words of a block that was
-  /// begun stay for later single calls.
+  /// Fills `words`, whose number must be even, with whole blocks of two words. Faster than single calls: the
+  /// processor works on several blocks at a time, as vectors where it has AVX2 (same words). The rest of a
+  /// block that a single call began stays for later single calls.
   void fill(std::span<std::uint64_t> words);
   std::uint64_t bits64() {
     const std::uint64_t high = (*this)();
@@ -50,8 +51,8 @@ class CounterRandom {
   std::size_t next_ = 4;
 };
 
-/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014), for where Philox would cost more than what it feeds: a
-/// CounterRandom gives each pixel its start. Satisfies UniformRandomBitGenerator.
+/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014), a cheap generator for uses where Philox would dominate
+/// the run time. Seed it for each pixel from a CounterRandom. Satisfies UniformRandomBitGenerator.
 class SplitMix64 {
  public:
   using result_type = std::uint64_t;
@@ -73,7 +74,7 @@ class SplitMix64 {
   std::uint64_t state_;
 };
 
-/// Purposes of random streams; a new use gets a new number.
+/// Purposes of random streams. A new use gets a new number.
 enum class RandomPurpose : std::uint32_t {
   kPhotons = 1,
   kResampling = 2,

@@ -8,7 +8,7 @@
 
 namespace dtof {
 
-/// The read-outs of the thesis, and ours (docs/reference/readouts.md).
+/// The read-outs of the thesis and of this project (docs/reference/readouts.md).
 enum class Readout : int {
   kEzPointer = 0,
   kHisPointer1 = 1,
@@ -23,7 +23,7 @@ enum class Readout : int {
   kPoolPointerLean = 10,
 };
 
-/// All.
+/// All read-outs.
 inline constexpr std::array<Readout, 11> kAllReadouts = {
     Readout::kEzPointer,
     Readout::kHisPointer1,
@@ -37,7 +37,7 @@ inline constexpr std::array<Readout, 11> kAllReadouts = {
     Readout::kPoolPointer,
     Readout::kPoolPointerLean};
 
-/// Those of the thesis.
+/// The read-outs of the thesis.
 inline constexpr std::array<Readout, 8> kThesisReadouts = {
     Readout::kEzPointer,
     Readout::kHisPointer1,
@@ -48,7 +48,7 @@ inline constexpr std::array<Readout, 8> kThesisReadouts = {
     Readout::kPifh,
     Readout::kHistogram};
 
-/// Those that have RTL, in dtof_array or an array of their own.
+/// The read-outs with RTL, in dtof_array or an array of their own.
 inline constexpr std::array<Readout, 11> kRtlReadouts = {
     Readout::kEzPointer,
     Readout::kHisPointer1,
@@ -68,19 +68,19 @@ std::string_view readout_name(Readout readout);
 std::string_view readout_title(Readout readout);
 /// One sentence on what the read-out does.
 std::string_view readout_summary(Readout readout);
-/// The result is a pointer.
+/// True if the result is a pointer.
 bool is_pointer_readout(Readout readout);
-/// The pixels of an engine's columns help each other.
+/// True for pool read-outs: pixels use the results of other pixels in their engine's columns.
 bool is_pool_readout(Readout readout);
-/// A histogram is scanned on the way to the result.
+/// True if the read-out scans a histogram.
 bool has_histogram(Readout readout);
-/// There is RTL of it.
+/// True if the read-out has RTL.
 bool has_rtl(Readout readout);
-/// Whether a parameter of the RTL can be chosen for the read-out and changes its result, beside NP and SLOTS;
+/// True if an RTL parameter other than NP and SLOTS can be chosen for the read-out and changes its result;
 /// false for an unknown name.
 bool has_parameter(Readout readout, std::string_view parameter);
-/// What the read-out has where nothing else is said, for a parameter of readouts.toml. Throws std::logic_error
-/// for an unknown name.
+/// Default value of a parameter of readouts.toml for the read-out. Throws std::logic_error for an unknown
+/// name.
 int default_value(Readout readout, std::string_view parameter, int np);
 
 }  // namespace dtof

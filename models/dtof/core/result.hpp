@@ -5,12 +5,12 @@
 
 namespace dtof {
 
-/// What a read-out delivers for one pixel and frame (spec section 3, "Outputs").
+/// Result of a read-out for one pixel and frame (spec section 3, "Outputs").
 struct PixelResult {
   std::uint16_t code = 0;        ///< integer bins, 0 .. 2^NP - 1
   std::uint16_t fraction = 0;    ///< units of 2^-FRACTION_BITS bin
   std::uint16_t confidence = 0;  ///< 0 = none; the scale depends on the read-out (docs/reference/readouts.md)
-  /// Position of the label that lost, code and fraction as one number; 0 unless poolPointer's
+  /// Position of the losing label, code and fraction as one number. 0 unless poolPointer runs with
   /// SECOND_TARGET.
   std::uint16_t second = 0;
 

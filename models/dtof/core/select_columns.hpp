@@ -9,20 +9,20 @@
 
 namespace dtof {
 
-/// The columns of `source` to read: those listed, in that order, or all if none is. Throws InputError for one
-/// that the source does not have.
+/// Returns the columns to read: those listed, in the order given, or all if `columns` is empty. Throws
+/// InputError for a column that `source` does not have.
 std::vector<int> select_columns(const StreamSource& source, std::span<const int> columns);
 
-/// Neighbouring columns that are read together, and which of them are asked for.
+/// Neighbouring columns that are read together.
 struct ColumnGroup {
   int first = 0;
   int count = 0;
-  std::vector<std::size_t> asked;  ///< places in the list of columns asked for
+  std::vector<std::size_t> asked;  ///< indices of the group's columns in the list of columns asked for
 };
 
-/// The groups that have a column of `selected`, from left to right, of an array of `columns` columns of which
-/// `together` at a time hear each other, counted from column 0. Groups are whole, so that a pixel's result
-/// does not depend on which columns are asked for, nor on their order.
+/// Returns the groups that contain a column of `selected`, from left to right. The array has `columns`
+/// columns, of which each `together`, counted from column 0, form a group. Groups are always whole, so a
+/// pixel's result does not depend on which columns are asked for.
 std::vector<ColumnGroup> column_groups(std::span<const int> selected, int together, int columns);
 
 }  // namespace dtof

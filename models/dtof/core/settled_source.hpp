@@ -8,8 +8,8 @@
 
 namespace dtof {
 
-/// Another source's streams without the acquisitions at the frame's start, in which a laser settles: what an
-/// array sees behind the register SETTLE (docs/user/integration.md).
+/// Another source's streams without the first `settle` acquisitions, in which a laser settles. Models the
+/// register SETTLE (docs/user/integration.md).
 class SettledSource final : public StreamSource {
  public:
   /// Throws InputError if no acquisition is left.

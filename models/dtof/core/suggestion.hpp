@@ -7,12 +7,12 @@
 
 namespace dtof {
 
-/// The known name that was probably meant: the one that the fewest edits (a letter inserted, left out or
-/// replaced, two neighbours swapped: optimal string alignment) turn into `name`, if these are at most a third
-/// of its letters, or one letter of a short name. Empty if there is none.
+/// Returns the known name that was probably meant, or empty. It is the name that needs the fewest edits
+/// (optimal string alignment: insert, delete, replace, swap two neighbours). At most a third of the letters
+/// of `name` may be edits, or one letter of a short name.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
-/// E.g. "unknown scene 'rom'; did you mean 'room'? Known are flat, room". `kind` is "scene".
+/// Error text, e.g. "unknown scene 'rom'; did you mean 'room'? Known are flat, room", with `kind` = "scene".
 std::string unknown_name(std::string_view kind, std::string_view name,
                          std::span<const std::string_view> known);
 

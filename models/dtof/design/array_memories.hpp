@@ -8,27 +8,27 @@
 
 namespace dtof {
 
-/// A read-out's array of a sensor, or several equal ones side by side.
+/// A read-out's array for a sensor, or several equal arrays side by side.
 struct ArrayChoice {
   ReadoutParameters parameters;
   int rows = kArrayRows;  ///< PIXELS_PER_SRAM
-  int columns = 200;      ///< SRAM_NUM, of each
+  int columns = 200;      ///< SRAM_NUM, columns of each array
   int arrays = 1;
   int pointer_ports = 2;  ///< POINTER_PORTS
 
-  /// Columns that share a memory: four of a pool read-out, two where engines are as small, else one.
+  /// Columns that share a memory: 1, or for a pool read-out 4 (2 if ENGINE_COLUMNS is 2), at most `columns`.
   [[nodiscard]] int module_columns() const;
-  /// Column modules.
+  /// Number of column modules of an array.
   [[nodiscard]] int modules() const;
-  /// Engines of a pool read-out; else 0.
+  /// Number of engines of a pool read-out's array; 0 for others.
   [[nodiscard]] int engines() const;
 };
 
-/// The memories of one column module, as readouts.toml has them.
+/// Memories of one column module (readouts.toml).
 std::vector<MacroSize> column_memories(const ArrayChoice& array);
-/// Those of one engine.
+/// Memories of one engine.
 std::vector<MacroSize> engine_memories(const ArrayChoice& array);
-/// Bits of the column modules' memories that a pixel has.
+/// Memory bits of the column modules divided by the number of pixels.
 double bits_per_pixel(const ArrayChoice& array);
 
 }  // namespace dtof

@@ -16,53 +16,56 @@
 
 namespace dtof {
 
-/// A scene of the sensor's array, its distances in proportion to the sensor's range: that of the thesis's
-/// sensor leaves them as they are.
+/// A scene for the sensor's array. Distances are scaled by the ratio of the sensor's range to that of the
+/// thesis's sensor.
 TargetMap scaled_scene(Scene scene, const SensorModel& sensor, std::uint64_t seed);
 
-/// What read-outs are measured on.
+/// Photons and limits of a comparison of read-outs.
 struct BenchSettings {
   SensorModel sensor;
   std::vector<Scene> scenes = {Scene::kRoom, Scene::kPoles};
   std::vector<double> klux = {2.0, 50.0};
-  double false_alarms = 1e-3;  ///< of pixels that look at the sky, at most
+  /// Largest share of pixels without a target that may pass the confidence threshold.
+  double false_alarms = 1e-3;
   std::uint64_t seed = 1;
   int threads = 0;
 };
 
-/// A read-out's errors in one light, over all scenes.
+/// Errors of a read-out at one light level, over all scenes.
 struct LightScore {
   double klux = 0.0;
   Estimate above_3_percent;
   Estimate above_10_percent;
   double rmse_m = 0.0;
-  /// Pixels that pass the threshold of confidence and are at most 10 % off.
+  /// Share of pixels that pass the confidence threshold and are at most 10 % off.
   std::optional<Estimate> detected;
-  std::optional<Estimate> false_alarms;  ///< of the sky, with other photons than set the threshold
+  std::optional<Estimate> false_alarms;  ///< share of sky pixels that pass the threshold, from other photons
+                                         ///< than those that set it
 };
 
 struct ReadoutScore {
   std::vector<LightScore> lights;
-  std::uint64_t pixels = 0;      ///< of a frame of all scenes
-  std::optional<int> threshold;  ///< of confidence
+  std::uint64_t pixels = 0;      ///< pixels of one frame of all scenes together
+  std::optional<int> threshold;  ///< least confidence of a target
 
-  /// The light with most pixels that are more than 3 % off.
+  /// The light level with the largest share of errors above 3 %.
   [[nodiscard]] const LightScore& worst() const;
 };
 
-/// How much is read: pixels of a frame, about, and frames.
+/// Size of a measurement: approximate number of pixels of a frame, and number of frames.
 struct BenchEffort {
   double pixels = 1e9;
   int frames = 1;
   bool detection = false;
 };
 
-/// Columns of the middle of three parts of the array, as many as have so many pixels; all if it has no more.
+/// Returns three groups of columns, centred in the thirds of the array, that hold about `pixels` pixels
+/// together; all columns if the array has no more.
 std::vector<int> bench_columns(const SensorModel& sensor, double pixels);
 
-/// Every read-out's score, of the same photons as far as SLOTS agree; the models read the photons of the
-/// exact source, with look-up tables from flat targets. An interval needs at least two frames; of one frame
-/// it is that of independent pixels.
+/// Returns the score of every read-out. Read-outs with equal SLOTS get the same photons. The models read the
+/// exact photon source and use look-up tables from flat targets. Intervals need at least two frames; with one
+/// frame they assume independent pixels.
 std::vector<ReadoutScore> run_bench(const BenchSettings& settings,
                                     std::span<const ReadoutParameters> readouts, const BenchEffort& effort,
                                     Progress* progress = nullptr);

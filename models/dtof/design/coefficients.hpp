@@ -10,21 +10,21 @@
 
 namespace dtof {
 
-/// mW of an array while acquisitions stream in, at kReferenceMhz.
+/// Power of an array in mW while acquisitions stream in, at kReferenceMhz.
 struct PowerParts {
   double columns = 0.0;
   double shared = 0.0;  ///< engines and control
-  double sram = 0.0;    ///< accesses
+  double sram = 0.0;    ///< memory accesses
   double clock = 0.0;
   double leakage = 0.0;
 };
 
-/// Clock of the synthesised points and lights of their power.
+/// Clock of the synthesised configurations, and the light levels of their power figures.
 inline constexpr double kReferenceMhz = 330.0;
 inline constexpr double kDayKlux = 50.0;
 inline constexpr double kDuskKlux = 2.0;
 
-/// A read-out's defaults as the flow has them.
+/// Cost of a read-out's default configuration, as synthesised.
 struct ReadoutCoefficients {
   ArrayChoice reference;
   double column_um2 = 0.0;
@@ -35,7 +35,7 @@ struct ReadoutCoefficients {
   PowerParts dusk;
 };
 
-/// What a column's logic costs for a step of a parameter, um2.
+/// Change of a column's logic area per step of a parameter, um2.
 struct FamilySlopes {
   double np = 0.0;
   double nb = 0.0;
@@ -44,37 +44,37 @@ struct FamilySlopes {
   double confidence_width = 0.0;
   double pointer_ports = 0.0;
   double time_gate = 0.0;
-  double pixels = 0.0;  ///< of a doubling of the array's
+  double pixels = 0.0;  ///< per doubling of the array's pixels
   double control_um2_a_column = 0.0;
 };
 
-/// Relative errors of estimates, of configurations that no fit has seen.
+/// Relative errors of estimates for configurations that were not used in the fit.
 struct EstimateErrors {
-  double area = 0.0;  ///< the largest
+  double area = 0.0;  ///< largest of all configurations
   double power = 0.0;
   double fmax = 0.0;
 };
 
-/// coefficients.toml, which `synth/synth.py estimate` writes.
+/// Contents of coefficients.toml, which `synth/synth.py estimate` writes.
 struct EstimateCoefficients {
   std::string digest;
-  double period_slope_ns = 0.0;  ///< of each column beyond the reference's
+  double period_slope_ns = 0.0;  ///< per column beyond the reference's columns
   EstimateErrors errors;
-  double data_exponent = 0.0;  ///< of NP, to which a column's data power is proportional
+  double data_exponent = 0.0;  ///< a column's data power grows as NP to this exponent
   FamilySlopes pointer;        ///< read-outs without a histogram
   FamilySlopes histogram;
   FamilySlopes pool;
   std::map<Readout, ReadoutCoefficients> readouts;
 
-  /// Throws InputError for a text that is not such a file.
+  /// Parses coefficients.toml. Throws InputError for any other text.
   static EstimateCoefficients parse(std::string_view toml);
-  /// Those that the program was built with.
+  /// Coefficients compiled into the program.
   static const EstimateCoefficients& built_in();
 
   [[nodiscard]] const FamilySlopes& slopes(Readout readout) const {
     return is_pool_readout(readout) ? pool : readout == Readout::kEzPointer ? pointer : histogram;
   }
-  /// Throws InputError for a read-out that has none.
+  /// Throws InputError for a read-out without coefficients.
   [[nodiscard]] const ReadoutCoefficients& of(Readout readout) const;
 };
 

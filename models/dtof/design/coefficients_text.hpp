@@ -5,7 +5,7 @@
 
 namespace dtof {
 
-/// The file coefficients.toml.
+/// Text of coefficients.toml, compiled into the program.
 std::string_view coefficients_text();
 
 }  // namespace dtof

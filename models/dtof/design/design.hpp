@@ -10,40 +10,41 @@
 
 namespace dtof {
 
-/// From a sensor and limits to a read-out.
+/// A sensor and limits, for which run_design chooses a read-out.
 struct DesignRequest {
   BenchSettings bench;
   DesignLimits limits;
-  int frames = 4;  ///< that compare the read-outs, at least 2; more of a small array
-  /// Acquisitions of pixels that may be read for all parameters, and for the frames that compare read-outs,
-  /// which decides how many pixels a frame has.
+  int frames = 4;  ///< frames that compare the read-outs, at least 2; small arrays get more
+  /// Budgets in pixels x acquisitions: `screening_work` to compare parameters, `final_work` to compare
+  /// read-outs. The budgets set the number of pixels of a frame.
   double screening_work = 4e10;
   double final_work = 4e10;
 };
 
-/// What one read-out lacks, where no parameters keep the limits.
+/// A read-out none of whose parameters meet the limits, and why.
 struct LeftOut {
   Readout readout;
   std::string reason;
 };
 
 struct DesignResult {
-  std::vector<DesignOption> options;  ///< all that were read
+  std::vector<DesignOption> options;  ///< all options that were read out
   Recommendation recommendation;
   std::vector<LeftOut> left_out;
   struct Consequence {
     LimitChange change;
     Recommendation recommendation;
-    std::string needed;  ///< where no read-out keeps the limits
+    std::string needed;  ///< what would be needed, if no read-out meets the changed limits
   };
-  std::vector<Consequence> consequences;  ///< of each change of a limit
-  int frames = 0;                         ///< that have compared the read-outs
-  std::size_t searched = 0;               ///< sets of parameters whose costs were estimated
+  std::vector<Consequence> consequences;  ///< one for each changed limit
+  int frames = 0;                         ///< frames that compared the read-outs
+  std::size_t searched = 0;               ///< parameter sets whose cost was estimated
 };
 
-/// Estimates every candidate, reads those that keep the limits or a limit that is 10 % looser, and compares
-/// the best of each read-out. Throws InputError, with one line that says what would do, if no read-out keeps
-/// the limits.
+/// Estimates the cost of every candidate. Reads out those that meet the limits, also after one limit is
+/// loosened by 10 %; of candidates that differ in SLOTS alone, only the one with most. Compares the best
+/// option of each read-out. Throws InputError, with one line that says what would be needed, if no read-out
+/// meets the limits.
 DesignResult run_design(const DesignRequest& request);
 
 }  // namespace dtof

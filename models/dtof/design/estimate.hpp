@@ -8,8 +8,7 @@
 
 namespace dtof {
 
-/// Area, clock and memory of an array, of all of them if there are several, by models fitted to synthesised
-/// configurations.
+/// Area, clock and memory of all arrays together, by models fitted to synthesised configurations.
 struct CostEstimate {
   double mm2 = 0.0;
   double fmax_mhz = 0.0;  ///< in the slow corner
@@ -19,12 +18,13 @@ struct CostEstimate {
 CostEstimate estimate_cost(const ArrayChoice& array,
                            const EstimateCoefficients& coefficients = EstimateCoefficients::built_in());
 
-/// Share of the TDC's slots that hold a detection, in the mean over a scene's pixels.
+/// Mean share of the TDC's slots that hold a detection, over a scene's pixels.
 double slot_rate(const SensorModel& sensor, const TargetMap& targets, double klux);
-/// That of the scene on which the power of the synthesised points was counted.
+/// slot_rate of the scene on which the power of the synthesised configurations was measured.
 double reference_slot_rate(double klux);
 
-/// mW while acquisitions stream in at a clock, with so many of the slots taken.
+/// Power in mW while acquisitions stream in at `clock_mhz`; `slots_taken`: share of slots that hold a
+/// detection.
 double estimate_mw(const ArrayChoice& array, double slots_taken, double clock_mhz,
                    const EstimateCoefficients& coefficients = EstimateCoefficients::built_in());
 

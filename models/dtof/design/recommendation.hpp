@@ -12,49 +12,49 @@
 
 namespace dtof {
 
-/// A candidate with what it is worth.
+/// A candidate and its measured errors.
 struct DesignOption {
   DesignCandidate candidate;
-  ReadoutScore screened;              ///< of one frame, to compare parameters
-  std::optional<ReadoutScore> score;  ///< of several frames, to compare read-outs
+  ReadoutScore screened;              ///< from one frame; compares parameters
+  std::optional<ReadoutScore> score;  ///< from several frames; compares read-outs
 
   [[nodiscard]] const ReadoutScore& best_known() const { return score ? *score : screened; }
 };
 
-/// One of several limits, changed.
+/// A copy of the limits with one of them changed.
 struct LimitChange {
   std::string name;  ///< "area 10 % less"
   DesignLimits limits;
 };
-/// Copies of the limits, in each of which one finite limit is 10 % tighter or 10 % looser. Infinite limits
-/// stay as they are.
+/// Returns copies of the limits, each with one finite limit 10 % tighter or 10 % looser.
 std::vector<LimitChange> limit_changes(const DesignLimits& limits);
 
-/// Whether no more pixels are off in the first than in the second, as far as their intervals can tell.
+/// True if `one` has no larger share of errors above 3 % than `other`, as far as their intervals can tell.
 bool as_good(const LightScore& one, const LightScore& other);
 
-/// The best parameters of each read-out that has an option within the limits: those with fewest pixels that
-/// are more than 3 % off in the worst light; the smallest array of those that are as good.
+/// Returns the best option within the limits for each read-out that has one. Best is the smallest share of
+/// errors above 3 % at the worst light level; among equally good options (as_good), the smallest array.
 std::vector<std::size_t> representatives(std::span<const DesignOption> options, const DesignLimits& limits);
 
 struct Recommendation {
-  std::vector<std::size_t> within;  ///< a representative of each read-out, best first
+  std::vector<std::size_t> within;  ///< best option of each read-out, in order of merit
   std::optional<std::size_t> chosen;
-  std::optional<std::size_t> competitor;  ///< what would be chosen of the other read-outs
+  std::optional<std::size_t> competitor;  ///< the choice if the chosen read-out were not available
 };
 
-/// By the same rule between read-outs.
+/// Chooses among the representatives by the same rule.
 Recommendation recommend(std::span<const DesignOption> options, const DesignLimits& limits);
 
-/// A limit that alone would have to become another, e.g. "--max-mm2 1.19", so that this read-out keeps all.
+/// Change of a single limit, e.g. "--max-mm2 1.19", after which this read-out meets all limits.
 struct SingleWay {
   std::string option;
   Readout readout;
 };
 std::vector<SingleWay> single_ways(std::span<const DesignCandidate> candidates, const DesignLimits& limits);
 
-/// One line that says which single limit would have to become what, and for which read-out; if no single one
-/// suffices, the least of each that any read-out needs. For limits that no candidate keeps.
+/// One line that says which single limit must change, to which value, for which read-out. If no single change
+/// suffices, the line gives the least value of each limit that any read-out needs. Use it when no candidate
+/// meets the limits.
 std::string what_would_be_needed(std::span<const DesignCandidate> candidates, const DesignLimits& limits);
 
 }  // namespace dtof

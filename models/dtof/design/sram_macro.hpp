@@ -3,7 +3,7 @@
 
 namespace dtof {
 
-/// A memory that an array asks for. ports: 1 (1RW) or 2 (1R1W).
+/// Size of an SRAM macro. ports: 1 (1RW) or 2 (1R1W).
 struct MacroSize {
   int ports = 1;
   int words = 0;
@@ -13,7 +13,7 @@ struct MacroSize {
   bool operator==(const MacroSize&) const = default;
 };
 
-/// Figures of a macro.
+/// Area, timing and energy of a macro.
 struct SramMacro {
   double area_um2;
   double access_slow_ns;
@@ -22,8 +22,9 @@ struct SramMacro {
   double leakage_uw;
 };
 
-/// The synthesis flow's physical model of a 40 nm macro (synth/dtof_synth/sram_model.py), once more: the
-/// organisation of least area, and laws of words and bits. Throws InputError for a size that has none.
+/// Physical model of a 40 nm SRAM macro: the organisation of least area, and laws of words and bits. Same
+/// model as the synthesis flow's (synth/dtof_synth/sram_model.py). Throws InputError for a size without a
+/// macro.
 SramMacro sram_macro(const MacroSize& size);
 
 }  // namespace dtof

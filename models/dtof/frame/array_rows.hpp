@@ -11,20 +11,20 @@
 
 namespace dtof {
 
-/// What a read-out's array sees of the rows that are read, the same for either engine.
+/// Source of a read-out's array, and where the rows to read lie in it. Same for models and RTL.
 struct ArrayRows {
   std::unique_ptr<StreamSource> source;
-  int first;        ///< sensor row of the source's row 0
-  RowRange region;  ///< the rows that are read, in the source
+  int first;        ///< sensor row of row 0 of `source`
+  RowRange region;  ///< rows to read, counted in `source`
 
-  /// The results of those rows, of a row-major frame of all that the array has.
+  /// Cuts the results of `region` out of `frame`, the row-major results of the whole array.
   [[nodiscard]] std::vector<PixelResult> read(std::vector<PixelResult> frame) const;
 };
 
-/// Pixels of a pool read-out look at their neighbours, so its arrays are whole: of as many rows as the
-/// thesis's (kArrayRows) or, with `own_rows`, as the source, those outside the region dark. All other pixels
-/// are independent, and the region's rows are enough. `source` must outlive the result. Throws InputError for
-/// a region outside it.
+/// Returns the array's source for a region of the sensor. Pixels of a pool read-out depend on their
+/// neighbours, so its array is whole and dark outside the region. It has as many rows as `source`, at least
+/// kArrayRows unless `own_rows`. All other read-outs get the region's rows alone. `source` must outlive the
+/// result. Throws InputError for a region outside `source`.
 ArrayRows array_rows(const StreamSource& source, RowRange region, Readout readout, bool own_rows = false);
 
 }  // namespace dtof

@@ -10,14 +10,14 @@
 
 namespace dtof {
 
-/// Columns of a frame in the dark without a target: what cover glass and fog alone send back. 2 columns of
-/// 160 rows. Throws InputError as PhotonSource does.
+/// Two columns of 160 rows of a frame without sunlight and target: the returns of cover glass and fog alone.
+/// Throws InputError as PhotonSource does.
 std::vector<ColumnStream> empty_columns(const SensorModel& sensor, std::uint64_t seed = 1);
 
-/// Whether a frame without a target has light of the sensor's own.
+/// True if the sensor's own light returns without a target (cover glass, fog).
 bool has_own_light(const SensorModel& sensor);
 
-/// The TEMPLATE registers of a pool read-out for what surrounds the sensor (readout/pool_template.hpp).
+/// TEMPLATE registers of a pool read-out for the sensor's cover glass and fog (readout/pool_template.hpp).
 PoolTemplate template_of(const SensorModel& sensor, const ReadoutParameters& parameters);
 
 }  // namespace dtof

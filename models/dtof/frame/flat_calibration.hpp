@@ -18,67 +18,67 @@
 
 namespace dtof {
 
-/// How codes become metres.
+/// How codes are converted to metres.
 enum class TableRule {
-  kNone,  ///< Eq. 3.11 alone
-  kFlat,  ///< the host's look-up table of each read-out, fitted by FlatCalibration
+  kNone,  ///< by Eq. 3.11
+  kFlat,  ///< by a look-up table for each read-out, fitted by FlatCalibration
 };
 
-/// Command-line names: none, flat.
+/// Command-line name: none, flat.
 std::string_view table_rule_name(TableRule rule);
-/// Throws InputError for another name.
+/// Rule by its command-line name. Throws InputError for an unknown name.
 TableRule parse_table_rule(std::string_view name);
 
-/// The calibration run behind `--table flat`, the same for every command: flat targets of the sensor's
-/// default reflectivity at 45 distances, 0.05 m apart up to 1 m and 0.2 m beyond, for T_int = 45 ns, and in
-/// proportion for another. Left out are those whose pulse has the middle of its falling edge beyond T_int, or
-/// its centre outside the time gate. Each has kPixels pixels, or as many as a study asks for. The photons are
-/// those of a frame of its own (kFrame), so that no scene shares them.
+/// Calibration behind `--table flat`, the same for every command. Flat targets of the sensor's default
+/// reflectivity stand at 45 distances: 0.05 m apart up to 1 m and 0.2 m beyond, for T_int = 45 ns, and in
+/// proportion for another T_int. A distance is left out if the middle of its pulse's falling edge lies beyond
+/// T_int, or the pulse's centre outside the time gate. The photons belong to a frame of their own (kFrame),
+/// so no scene shares them.
 class FlatCalibration {
  public:
-  static constexpr int kPixels = 160;         ///< of each distance, where nothing else is said
-  static constexpr std::uint32_t kFrame = 1;  ///< of the seed
+  static constexpr int kPixels = 160;         ///< default number of pixels at each distance
+  static constexpr std::uint32_t kFrame = 1;  ///< number of the frame that calibration draws
 
-  /// Throws InputError if fewer than two distances are left, or for no pixel.
+  /// Throws InputError if fewer than two distances remain, or if `pixels` is below 1.
   explicit FlatCalibration(const SensorModel& sensor, int pixels = kPixels);
 
   [[nodiscard]] const std::vector<double>& distances_m() const { return distances_m_; }
-  /// Each distance has as many columns as binning and coincidence need to keep the distances apart; the one
-  /// in the middle is read.
+  /// One target per distance. Each covers as many columns as binning and coincidence need to separate the
+  /// distances; column() gives the middle one, which is read.
   [[nodiscard]] const TargetMap& targets() const { return targets_; }
   [[nodiscard]] int column(std::size_t distance) const;
-  /// targets(), and behind them the same once more, for read-outs whose columns hear each other: what is read
-  /// of a distance is the right column of a pair, whose left one is among the others.
+  /// targets() twice, side by side, for read-outs whose columns depend on their left neighbour. Each distance
+  /// is then read in the right column of a pair; the left one is a column of the first copy.
   [[nodiscard]] TargetMap paired_targets() const;
 
-  /// The table of measurements of the targets, index = row * distances_m().size() + distance.
+  /// Fits a table to measurements of the targets, index = row * distances_m().size() + distance.
   [[nodiscard]] RangeConverter fit(std::span<const Measurement> measurements, double code_step,
                                    std::uint64_t seed) const;
-  /// Draws the photons of targets.
+  /// Function that draws the photons of targets.
   using Photons = std::function<std::unique_ptr<StreamSource>(const TargetMap& targets)>;
 
-  /// The table of each read-out's model, from photons of targets(), or of paired_targets() where its columns
-  /// hear each other.
+  /// Fits the table of each read-out's model. Photons come from targets(), or from paired_targets() for
+  /// read-outs whose columns depend on each other.
   [[nodiscard]] std::vector<RangeConverter> fit(const Photons& photons,
                                                 std::span<const ReadoutParameters> readouts,
                                                 std::uint64_t seed, int threads) const;
 
-  /// For reports: "flat targets of reflectivity 1 at 45 distances from 0.1 to 6.2 m, 160 pixels each".
+  /// Text for reports: "flat targets of reflectivity 1 at 45 distances from 0.1 to 6.2 m, 160 pixels each".
   [[nodiscard]] std::string description() const;
 
  private:
   [[nodiscard]] std::size_t pixels() const { return static_cast<std::size_t>(targets_.rows()); }
 
   double reflectivity_;
-  int pitch_;  ///< columns of a distance
+  int pitch_;  ///< columns per distance
   std::vector<double> distances_m_;
   TargetMap targets_;
 };
 
-/// Sentences for a summary: how distances and figures came from codes.
+/// Sentences for a summary: how codes became distances and figures.
 std::string table_sentence(TableRule rule, const SensorModel& sensor, std::uint64_t seed);
 
-/// Number of the n-th frame of a scene: FlatCalibration::kFrame is left out.
+/// Frame number of the n-th frame of a scene; skips FlatCalibration::kFrame.
 constexpr std::uint32_t scene_frame(std::uint32_t n) { return n < FlatCalibration::kFrame ? n : n + 1; }
 
 }  // namespace dtof

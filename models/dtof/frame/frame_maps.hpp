@@ -15,37 +15,37 @@
 
 namespace dtof {
 
-/// Whether a result has a distance: not with confidence 0, as that of a pixel without a detection is, unless
-/// the read-out has no confidence. EMPTY of dtof_subsystem's results.
+/// True if a result has a distance: its confidence is above 0, or the read-out has no confidence. EMPTY of
+/// dtof_subsystem's results follows the same rule.
 bool has_distance(const PixelResult& result, const ReadoutParameters& parameters);
 
-/// Figures of the pixels that are judged, of one frame or several. Their errors are those of the position
-/// that a result holds, with a distance or without: no read-out gains by its doubts.
+/// Error figures of the judged pixels of one frame or several. Every judged pixel counts, whether its result
+/// has a distance or not, so a read-out cannot improve its figures by low confidence.
 struct FrameFigures {
   ErrorStatistics errors;
-  RunningMoments before;  ///< errors by Eq. 3.11, before the look-up table
+  RunningMoments before;  ///< errors of the distances by Eq. 3.11, without the look-up table
   std::uint64_t without_distance = 0;
 
   void merge(const FrameFigures& other);
 };
 
-/// What a host makes of a frame's results. Maps are in m; NaN is unknown.
+/// Distances and errors of a frame's results, as a host computes them. Maps are in m; NaN is unknown.
 struct FrameMaps {
-  std::vector<float> depth;  ///< at least 0; unknown without a distance
-  std::vector<float> error;  ///< measured - true; unknown without a distance or a truth
+  std::vector<float> depth;  ///< at least 0; NaN without a distance
+  std::vector<float> error;  ///< measured - true; NaN without a distance or a true distance
   FrameFigures figures;
-  double mean_square = 0.0;  ///< of the errors that `figures` has, m2
+  double mean_square = 0.0;  ///< mean square of the errors in `figures`, m2
 };
 
-/// Distances by `table`, or by Eq. 3.11 if there is none. `truth` has a value for each result, NaN where the
-/// result is not judged. `skew_bins`: timing skew of each result's pixel, which the host knows and subtracts;
-/// empty: none.
+/// Computes distances by `table`, or by Eq. 3.11 if there is none. `truth` has the true distance of each
+/// result, NaN where the result is not judged. `skew_bins` has the timing skew of each result's pixel, which
+/// the host knows and subtracts; empty: no skew.
 FrameMaps frame_maps(std::span<const PixelResult> results, const ReadoutParameters& parameters,
                      const SensorModel& sensor, const std::optional<RangeConverter>& table,
                      std::span<const float> truth, std::span<const double> skew_bins = {});
 
-/// The figures of a summary as text, with and without a look-up table: their names and their values; "-" if
-/// no pixel is judged.
+/// Names of a summary's figures, with or without a look-up table, and their values as text; "-" if no pixel
+/// is judged.
 std::vector<std::string> figure_names(bool table);
 std::vector<std::string> figure_values(const FrameFigures& figures, bool table);
 

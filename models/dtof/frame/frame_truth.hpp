@@ -13,37 +13,38 @@
 
 namespace dtof {
 
-/// Distance from which light returns after T_int, m.
+/// Distance whose light returns after T_int, m.
 double sensor_range_m(const SensorModel& sensor);
-/// "the sensor's range, 6.75 m (light there and back in 45 ns)".
+/// Text, e.g. "the sensor's range, 6.75 m (light there and back in 45 ns)".
 std::string range_phrase(const SensorModel& sensor);
 
-/// " 3 pixels are dead and not judged." for `what` = "dead"; empty for no pixels.
+/// Text, e.g. " 3 pixels are dead and not judged." for `what` = "dead"; empty for 0 pixels.
 std::string not_judged_sentence(std::uint64_t pixels, std::string_view what);
-/// Why distances cannot be measured, if not even the `nearest` of them can: to end a refusal with. If
-/// `whole`, all are whole numbers, it asks whether those of 50 and more are millimetres, which `option` would
-/// say.
+/// End of an error text for targets that are all beyond `reach_m`; names the distance of the `nearest` one.
+/// If `whole` (all distances are whole numbers) and they could be millimetres, the text suggests `option`
+/// 0.001.
 std::string unreachable_phrase(double nearest, double reach_m, bool whole, std::string_view option);
 
-/// What a read-out can be judged by, of the rows of some columns.
+/// True distances of the rows of some columns, by which results are judged.
 struct FrameTruth {
-  /// True distances in m, row-major; NaN of a pixel that is not judged: of those that are counted below.
+  /// True distances in m, row-major; NaN for pixels that are not judged, which the members below count.
   std::vector<float> metres;
-  std::uint64_t without_target = 0;  ///< nothing returns light
-  std::uint64_t beyond_range = 0;    ///< the sensor's
-  std::uint64_t dead = 0;            ///< of the sensor's defects, with a target in range; none with binning
+  std::uint64_t without_target = 0;  ///< pixels whose target returns no light, or without a target
+  std::uint64_t beyond_range = 0;    ///< pixels whose target is beyond the sensor's range
+  std::uint64_t dead = 0;            ///< dead pixels with a target in range; 0 with binning
 
   [[nodiscard]] bool any_judged() const;
-  /// One sentence for each kind of pixel that is not judged, each behind a blank, e.g. " 3 pixels are beyond
-  /// the sensor's range, 6.75 m (light there and back in 45 ns), and not judged."; empty if all are judged.
+  /// Sentences for summaries, one for each kind of pixel that is not judged, each after a blank. E.g. " 3
+  /// pixels are beyond the sensor's range, 6.75 m (light there and back in 45 ns), and not judged."; empty if
+  /// all are judged.
   [[nodiscard]] std::string sentences(const SensorModel& sensor) const;
 };
 
 FrameTruth frame_truth(const TargetMap& targets, const SensorModel& sensor, std::span<const int> columns,
                        RowRange rows);
 
-/// Throws InputError, which begins with `name`, unless a target is within the sensor's range. If
-/// `millimetres`, the refusal asks whether distances of 50 and more, all whole numbers, are millimetres.
+/// Throws InputError that begins with `name` unless some target is within the sensor's range. With
+/// `millimetres`, the text suggests a scale if all distances are whole numbers of 50 or more.
 void require_reachable(const TargetMap& targets, const SensorModel& sensor, std::string_view name,
                        bool millimetres = false);
 

@@ -12,7 +12,7 @@
 
 namespace dtof {
 
-/// What the sensor delivered for one pixel of one frame.
+/// Result of one pixel and frame.
 struct Measurement {
   double position;    ///< code axis, bins: code + fraction / 2^FRACTION_BITS
   double confidence;  ///< on the read-out's own scale (docs/reference/readouts.md)
@@ -20,16 +20,16 @@ struct Measurement {
   bool operator==(const Measurement&) const = default;
 };
 
-/// A result beat as the sensor sends it.
+/// Converts a result beat of the sensor.
 Measurement to_measurement(const PixelResult& result, int fraction_bits);
 
-/// Where a run's photons came from. Runs of equal identity saw the same photons. For recordings: any number
-/// that tells captures apart.
+/// Origin of a run's photons. Runs with equal identity saw the same photons. For recordings: any number that
+/// differs between captures.
 struct RunIdentity {
   std::uint64_t seed;
   std::uint32_t frame;
 
-  // clang-tidy 14 objects to the 0 with which the compiler makes this comparison.
+  // clang-tidy 14 objects to the 0 that the compiler uses in this comparison.
   auto operator<=>(const RunIdentity&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
@@ -40,37 +40,39 @@ struct TargetRun {
   std::vector<Measurement> measurements;
 };
 
-/// The host's side of the read-out (thesis section 3.4): codes to metres by a monotone look-up table, and
-/// rejection of measurements with too little confidence.
+/// The host's part of the read-out (thesis section 3.4): converts codes to metres by a monotone look-up
+/// table, and rejects measurements of low confidence.
 class RangeConverter {
  public:
-  /// Fits the table to the median position of each run (interpolated within the step of the code, so that a
-  /// median of whole codes is finer than a code; robust up to half of the measurements outlying). A run
-  /// weighs as the reciprocal of its median's variance, and the table ends where positions stop growing: a
-  /// read-out that no longer finds its target would otherwise bend the table for the distances it does find.
+  /// Fits the table to the median position of each run.
+  ///
+  /// The median is interpolated within the code step, so it is finer than a code; it tolerates up to half of
+  /// the measurements as outliers. A run's weight is the reciprocal of its median's variance. The table ends
+  /// where positions stop growing: beyond, the read-out no longer finds its target and would bend the table.
+  ///
   /// `code_step` is the resolution of positions in bins: 1, 2^-FRACTION_BITS, or 0 for continuous positions.
   /// Throws InputError for fewer than two runs, an empty run, a distance that is not above 0, or values that
   /// are not finite.
   static RangeConverter calibrate(std::span<const TargetRun> runs, double code_step = 1.0);
 
-  /// Measurements below `confidence` are rejected from now on (default: none is).
+  /// Sets the least confidence of accepted measurements. By default all are accepted.
   void set_least_confidence(double confidence) { least_confidence_ = confidence; }
   [[nodiscard]] double least_confidence() const { return least_confidence_; }
-  /// Sets the lowest threshold at which, over all `runs`, at most `share` of the accepted measurements are
-  /// more than `tolerance` (relative) off the true distance. False, and nothing changed, if no threshold is.
+  /// Sets the lowest threshold at which at most `share` of the accepted measurements of `runs` have a
+  /// relative error above `tolerance`. Returns false, without a change, if no threshold achieves this.
   bool choose_least_confidence(std::span<const TargetRun> runs, double share, double tolerance = 0.1);
 
-  /// Distance in m, whatever the confidence.
+  /// Distance in m, for any confidence.
   [[nodiscard]] double distance(double position) const { return table_.distance(position); }
-  /// Distance in m, or nothing if rejected.
+  /// Distance in m; none if the measurement is rejected.
   [[nodiscard]] std::optional<double> convert(const Measurement& measurement) const;
 
-  /// Distances of a run that measures how good this converter is. Throws std::logic_error if the run, or
-  /// another of the same identity, was used to calibrate: its errors would look too small.
+  /// Distances in m of a run that tests this converter. Throws std::logic_error if a run of the same identity
+  /// was used to calibrate: the errors would look too small.
   [[nodiscard]] std::vector<double> evaluate(const TargetRun& run) const;
 
   [[nodiscard]] const LookupTable& table() const { return table_; }
-  /// Largest distance that the table was fitted to, m; beyond it, distances are extrapolated.
+  /// Largest distance in the fit, m. Distances beyond it are extrapolated.
   [[nodiscard]] double reach_m() const { return reach_m_; }
 
  private:

@@ -7,10 +7,10 @@
 
 namespace dtof {
 
-/// Output file that appears whole or not at all: written to a temporary file beside the target, which
-/// `commit` renames. Without `commit` (an exception) nothing is left behind and an older target stays as it
-/// was. A target that is not a regular file (/dev/stdout, a pipe) is written directly. Every failure is an
-/// InputError "<path>: cannot write: <reason>".
+/// Output file that appears whole or not at all. Data goes to a temporary file beside the target, which
+/// `commit` renames. Without `commit` (e.g. after an exception) the temporary file is deleted and an older
+/// target stays unchanged. A target that is not a regular file (/dev/stdout, a pipe) is written directly.
+/// Every failure throws InputError "<path>: cannot write: <reason>".
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);
@@ -28,17 +28,17 @@ class AtomicFile {
   void flush();
   void close_and_remove() noexcept;
 
-  std::filesystem::path target_;     ///< as the user gave it, for messages
+  std::filesystem::path target_;     ///< as the user gave it, for error messages
   std::filesystem::path final_;      ///< symbolic links resolved, so that a link stays a link
-  std::filesystem::path temporary_;  ///< empty when the target is written directly
+  std::filesystem::path temporary_;  ///< empty if the target is written directly
   int descriptor_ = -1;
   std::string buffer_;
 };
 
-/// `contents` as one AtomicFile.
+/// Writes `contents` as an AtomicFile.
 void write_file(const std::filesystem::path& target, std::string_view contents);
 
-/// The same as gzip; equal contents give equal files.
+/// Writes `contents` as a gzip AtomicFile; equal contents give equal files.
 void write_gzip_file(const std::filesystem::path& target, std::string_view contents);
 
 }  // namespace dtof

@@ -14,7 +14,7 @@ struct gzFile_s;
 
 namespace dtof {
 
-/// A little-endian number of `bytes` from `offset` on, which they must have.
+/// Little-endian number at `offset`. `bytes` must hold the whole number.
 template <typename T>
 T number_at(std::string_view bytes, std::size_t offset) {
   static_assert(std::endian::native == std::endian::little);
@@ -23,11 +23,11 @@ T number_at(std::string_view bytes, std::size_t offset) {
   return number;
 }
 
-/// A file, plain or gzip, that is read piece by piece from its beginning to its end, so that it may be longer
-/// than memory. Every refusal is an InputError "<path>: <reason>".
+/// A file, plain or gzip, read piece by piece from beginning to end, so it may be larger than memory. Every
+/// error is an InputError "<path>: <reason>".
 class ByteStream {
  public:
-  /// Refuses what read_file refuses: a missing or unreadable file, a directory, a device, an empty file.
+  /// Throws as read_file does: for a missing or unreadable file, a directory, a device or an empty file.
   explicit ByteStream(std::filesystem::path path);
   ByteStream(const ByteStream&) = delete;
   ByteStream& operator=(const ByteStream&) = delete;
@@ -35,9 +35,10 @@ class ByteStream {
   ByteStream& operator=(ByteStream&&) = delete;
   ~ByteStream();
 
-  /// The next `size` bytes; refuses a file that ends before: "the file ends in <what>".
+  /// Returns the next `size` bytes. Throws "the file ends in <what>" if fewer are left.
   std::string take(std::size_t size, std::string_view what);
-  /// The next little-endian number; false where the file ends. Refuses a file that ends within the number.
+  /// Reads the next little-endian number; false at the end of the file. Throws if the file ends within the
+  /// number.
   bool take_number(std::uint32_t& number, std::string_view what);
 
  private:
@@ -46,11 +47,11 @@ class ByteStream {
   std::filesystem::path path_;
   std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
   std::string buffer_;
-  std::size_t next_ = 0;  ///< in `buffer_`
+  std::size_t next_ = 0;  ///< next byte in `buffer_`
 };
 
-/// The first bytes of a file, unpacked, for finding out what it is; fewer, or none, where it does not have so
-/// many or cannot be read, and for a pipe, which would lose them.
+/// First bytes of a file, unpacked, to recognise its format. Returns fewer or no bytes if the file is shorter
+/// or cannot be read. Returns none for a pipe, whose bytes would be lost.
 std::string file_start(const std::filesystem::path& path, std::size_t size);
 
 }  // namespace dtof

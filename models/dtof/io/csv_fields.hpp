@@ -12,20 +12,22 @@
 
 namespace dtof {
 
-/// The fields of a line; a comma separates two.
+/// Splits a line at its commas.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 
-/// Stands for a field of -1, which means "no value" where this is legal.
+/// Value of a field that holds -1, where -1 is legal and means "no value".
 inline constexpr std::uint64_t kNoCsvValue = std::numeric_limits<std::uint64_t>::max();
 
-/// Called for each line with its number (the header is line 1) and its unsigned decimal fields.
+/// Called for each data line with its number (the header is line 1) and its fields.
 using CsvLineHandler = std::function<void(std::size_t line, std::span<const std::uint64_t> fields)>;
 
 /// Parses a CSV of unsigned decimal integers. `header`, the first line, gives the number and the names of the
-/// fields. Taken as the same are: commas and semicolons, one of the two in a whole file; blanks around a
-/// field; quotation marks around it; a fraction of zeros (100.0); empty lines behind the last one; a byte
-/// order mark in front. In the field `may_be_none` -1 stands for no value (kNoCsvValue). Throws InputError
-/// "<file>:<line>: <reason>" at the first malformed line.
+/// fields. Field `may_be_none` may hold -1 (kNoCsvValue).
+///
+/// Accepted variants: semicolons instead of commas in the whole file; blanks or quotation marks around a
+/// field; a fraction of zeros (100.0); empty lines at the end; a leading byte order mark.
+///
+/// Throws InputError "<file>:<line>: <reason>" at the first malformed line.
 void parse_integer_csv(std::string_view file_name, std::string_view text, std::string_view header,
                        const CsvLineHandler& handler, std::string_view may_be_none = "");
 

@@ -9,22 +9,21 @@
 
 namespace dtof {
 
-/// A CSV of numbers whose first line names the columns and whose first field of every other line names the
-/// line.
+/// A CSV of numbers. The first line names the columns; the first field of every other line names the line.
 class CsvTable {
  public:
-  /// Reads a file, plain or gzip. Throws InputError "<path>:<line>: <reason>" for a line with another number
-  /// of fields than the first one.
+  /// Reads a file, plain or gzip. Throws InputError "<path>:<line>: <reason>" if a line and the first line
+  /// differ in the number of fields.
   explicit CsvTable(std::filesystem::path path);
 
-  /// Numbers below a column's name. Throws InputError if the file has no column of this name, or if a field
-  /// is no number.
+  /// Numbers of a column. Throws InputError if the file has no column of this name, or if a field is no
+  /// number.
   [[nodiscard]] std::vector<double> column(std::string_view name) const;
-  /// Fields below a column's name, as they are. Throws InputError if the file has no column of this name.
+  /// Unparsed fields of a column. Throws InputError if the file has no column of this name.
   [[nodiscard]] std::vector<std::string> texts(std::string_view name) const;
-  /// Numbers that follow a line's name.
+  /// Numbers of the line with this name.
   [[nodiscard]] std::vector<double> row(std::string_view name) const;
-  /// Numbers of every line, without the lines' names; lines whose other fields are all empty are left out.
+  /// Numbers of all lines, without line names. Lines with only empty fields are left out.
   [[nodiscard]] std::vector<std::vector<double>> rows() const;
 
  private:

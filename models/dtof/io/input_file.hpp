@@ -8,7 +8,7 @@
 
 namespace dtof {
 
-/// Longest file that is read, and most that gzip data may unpack to: a few kilobytes of it can hold
+/// Longest file that is read, and most bytes that gzip data may unpack to. A few kilobytes of gzip can hold
 /// terabytes.
 inline constexpr std::size_t kLongestFile = std::size_t{1} << (sizeof(std::size_t) > 4 ? 32U : 31U);
 inline constexpr std::size_t kLongestUnpacked = std::size_t{1} << 28U;
@@ -16,20 +16,20 @@ inline constexpr std::size_t kLongestUnpacked = std::size_t{1} << 28U;
 /// Throws InputError "<path>: <reason>".
 [[noreturn]] void fail_in_file(const std::filesystem::path& path, std::string_view reason);
 
-/// Whole contents of a file, which is read once from its beginning to its end, so that a pipe may take its
-/// place. Throws InputError "<path>: <reason>" when it is missing, unreadable, a directory, a device, empty
-/// or longer than `longest` bytes.
+/// Returns the whole contents of a file. The file is read once from beginning to end, so it may be a pipe.
+/// Throws InputError "<path>: <reason>" if it is missing, unreadable, a directory, a device, empty or longer
+/// than `longest` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t longest = kLongestFile);
 
-/// As `read_file`, and unpacks gzip (recognised by its first two bytes). Throws also when the gzip data is
-/// damaged or ends early, or when file or unpacked data are longer than `longest` bytes.
+/// Reads as `read_file` and unpacks gzip, recognised by its first two bytes. Throws also if the gzip data is
+/// damaged or ends early, or if file or unpacked data exceed `longest` bytes.
 std::string read_file_or_gzip(const std::filesystem::path& path, std::size_t longest = kLongestUnpacked);
 
-/// The same of contents that `path` has already given; others than gzip stay as they are.
+/// Unpacks `contents` of `path` if they are gzip; other contents are returned unchanged.
 std::string unpack_gzip(const std::filesystem::path& path, std::string contents,
                         std::size_t longest = kLongestUnpacked);
 
-/// Text without the byte order mark of UTF-8 in front of it, which some editors write.
+/// Text without a leading UTF-8 byte order mark.
 constexpr std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   return text.starts_with(kMark) ? text.substr(kMark.size()) : text;

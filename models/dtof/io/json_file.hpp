@@ -12,27 +12,28 @@
 
 namespace dtof {
 
-/// A place in a JSON file that knows its own path, so that every complaint names it.
+/// A node of a JSON file. It stores its own path, which every error text names.
 class JsonNode {
  public:
   JsonNode(const nlohmann::json& value, std::string where) : value_(&value), where_(std::move(where)) {}
 
-  /// Member of an object, element of an array; InputError where missing.
+  /// Member of an object, or element of an array. Throws InputError if missing.
   [[nodiscard]] JsonNode operator[](const char* key) const;
   [[nodiscard]] JsonNode at(std::size_t index) const;
-  /// Member of an object; none where missing or null.
+  /// Member of an object; none if missing or null.
   [[nodiscard]] std::optional<JsonNode> find(const char* key) const;
-  /// Elements of an array; InputError when it is none.
+  /// Number of elements. Throws InputError if the node is no array.
   [[nodiscard]] std::size_t size() const;
-  /// A finite number, or a string holding one.
+  /// A finite number, or a string that holds one. Throws InputError otherwise.
   [[nodiscard]] double number() const;
-  /// The same, or NaN where the value is null, not a number or infinite.
+  /// As number(), but NaN if the value is null, not a number or infinite.
   [[nodiscard]] double number_or_unknown() const;
-  /// 2 and 2.0 are the same integer.
+  /// An integer; 2.0 counts as 2. Throws InputError otherwise.
   [[nodiscard]] std::int64_t integer() const;
-  /// An array of `size` photon counts, each an integer in 0..2^32-1; 2 and 2.0 are the same.
+  /// An array of `size` photon counts, each an integer in 0 .. 2^32-1; 2.0 counts as 2. Throws InputError
+  /// otherwise.
   [[nodiscard]] std::vector<std::uint32_t> counts(std::size_t size) const;
-  /// InputError unless this is an array of `size`.
+  /// Throws InputError unless the node is an array of `size` elements.
   void expect_size(std::size_t size) const;
   [[noreturn]] void fail(const std::string& reason) const;
 
@@ -41,11 +42,11 @@ class JsonNode {
   std::string where_;
 };
 
-/// Parses a JSON file, plain or gzip. Throws InputError "<path>: <reason>" with line and column. What JSON
-/// does not have and some programs write all the same, NaN and Infinity, is read as null.
+/// Parses a JSON file, plain or gzip. NaN and Infinity, which are not JSON but occur, are read as null.
+/// Throws InputError "<path>: <reason>" with line and column.
 nlohmann::json read_json(const std::filesystem::path& path);
 
-/// The same of text that `path` has already given.
+/// Parses text that was read from `path`, as read_json does.
 nlohmann::json parse_json(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace dtof

@@ -5,7 +5,8 @@
 
 namespace dtof {
 
-/// Creates `folder` and what leads to it. Throws InputError with path and reason.
+/// Creates `folder` and its missing parents. Throws InputError "<path>: cannot create the output folder:
+/// <reason>".
 void create_output_folder(const std::filesystem::path& folder);
 
 }  // namespace dtof

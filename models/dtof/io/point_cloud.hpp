@@ -10,11 +10,11 @@
 
 namespace dtof {
 
-/// Angle of view of one pixel (AFOV, spec section 4), degrees.
+/// Field of view of one pixel, degrees (AFOV, spec section 4).
 inline constexpr double kPixelAngle = 0.48;
 
-/// Point of a range measured along the ray of a pixel. Equiangular: a pixel's column and row turn the ray by
-/// `degrees_per_pixel` each about the image's middle. Axes as cameras have them: x right, y down, z ahead; m.
+/// A point in m, from a range along a pixel's ray. The projection is equiangular: column and row each turn
+/// the ray by `degrees_per_pixel` about the image's middle. Camera axes: x right, y down, z ahead.
 struct Point {
   float x;
   float y;
@@ -22,24 +22,25 @@ struct Point {
 };
 Point point_of_pixel(const DepthImage& image, int column, int row, double degrees_per_pixel = kPixelAngle);
 
-/// Why an image of so many pixels has no point cloud: a ray would turn by 90 degrees or more, as with 375
-/// pixels of 0.48 degrees. Empty if it has one.
+/// Why an image of this size has no point cloud: a ray would turn by 90 degrees or more, e.g. with 375 pixels
+/// of 0.48 degrees. Empty if it has one.
 std::string ply_obstacle(int width, int height, double degrees_per_pixel = kPixelAngle);
 
-/// Whether the pixel has a point: its distance is finite and above 0.
+/// True if the pixel has a point: its distance is finite and above 0.
 bool is_known_distance(double metres);
 
-/// A number of each pixel that its point takes along, for instance the confidence.
+/// A number per pixel that is stored with its point, e.g. the confidence.
 struct PointField {
   std::string name;           ///< letters, digits and _
   std::vector<float> values;  ///< [row][column], as many as the image has pixels
 };
 
-/// PLY (Stanford) and PCD 0.7 (Point Cloud Library), each as little-endian numbers or as text.
+/// Formats: PLY (Stanford) and PCD 0.7 (Point Cloud Library), each with little-endian binary numbers or as
+/// text.
 enum class PointCloudFormat { kPly, kPlyText, kPcd, kPcdText };
 
-/// Writes the known pixels in the order of the image: x, y, z in m, then the fields, all as float. Throws
-/// InputError for what ply_obstacle says, std::logic_error for a field of another size.
+/// Writes the known pixels in image order: x, y, z in m, then the fields, all as float. Throws InputError if
+/// ply_obstacle is not empty, std::logic_error if a field and the image differ in size.
 void write_point_cloud(const std::filesystem::path& path, const DepthImage& image,
                        std::span<const PointField> fields, PointCloudFormat format, double degrees_per_pixel);
 

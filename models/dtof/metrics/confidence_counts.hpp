@@ -6,14 +6,14 @@
 
 namespace dtof {
 
-/// Pixels of each confidence.
+/// Number of pixels for each confidence value.
 using ConfidenceCounts = std::map<int, std::uint64_t>;
 
-/// Pixels of at least this confidence.
+/// Number of pixels whose confidence is at least `least_confidence`.
 std::uint64_t count_from(const ConfidenceCounts& pixels, int least_confidence);
 
-/// The lowest confidence, 0 or more, that at most `share` of the pixels reach: what tells a target from a
-/// sky, if the pixels are a sky's and the share is that of false alarms. 0 without pixels.
+/// Lowest threshold, 0 or more, that at most `share` of the pixels reach; 0 without pixels. With the
+/// confidences of pixels that see no target, `share` is the false-alarm rate of the threshold.
 int lowest_threshold(const ConfidenceCounts& pixels, double share);
 
 }  // namespace dtof

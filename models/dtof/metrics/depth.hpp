@@ -8,12 +8,12 @@ namespace dtof {
 /// Position of a result on the code axis, in bins: code + fraction / 2^fraction_bits.
 double code_position(const PixelResult& result, int fraction_bits);
 
-/// Conversion between code position and depth, Eq. 3.11 with the code's middle as its time (spec section 3):
-/// R = c/2 (T_res (position + 0.5) - FWHM).
+/// Conversion between code position and depth: Eq. 3.11, with the middle of the code as its time (spec
+/// section 3). R = c/2 (T_res (position + 0.5) - FWHM).
 class DepthScale {
  public:
-  /// T_res = integration_time_s / 2^np. Throws InputError unless the time is positive, FWHM not negative and
-  /// both finite, np 1 .. 16.
+  /// T_res = integration_time_s / 2^np. Throws InputError unless time and FWHM are finite, time > 0, FWHM >=
+  /// 0 and np 1 .. 16.
   DepthScale(double integration_time_s, int np, double fwhm_s);
 
   /// Depth in m; negative for a position earlier than the pulse of a target at 0 m.

@@ -8,20 +8,20 @@
 
 namespace dtof {
 
-/// Errors of some pixels as reports show them: how many are far off, and by how much all are.
+/// Error figures of a set of pixels, as in reports.
 struct ErrorShares {
   std::uint64_t pixels = 0;
   double above_3_percent = 0.0;   ///< share of pixels
   double above_10_percent = 0.0;  ///< share of pixels
-  double rmse = 0.0;              ///< of the relative error
+  double rmse = 0.0;              ///< root mean square of the relative error
 };
 
-/// Counts pixel by pixel, in constant memory.
+/// Accumulates error figures pixel by pixel, in constant memory.
 class ErrorShareCounter {
  public:
   /// Distances in m. Throws InputError as ErrorStatistics does.
   void add(double true_m, double measured_m);
-  /// All 0 if nothing was added.
+  /// Figures of all pixels added; all 0 if none was.
   [[nodiscard]] ErrorShares shares() const;
 
  private:
@@ -29,7 +29,7 @@ class ErrorShareCounter {
   RunningMoments relative_error_;
 };
 
-/// The pixels of several sets together; the rmse over all of them.
+/// Figures of several sets of pixels together.
 ErrorShares pooled(std::span<const ErrorShares> parts);
 
 }  // namespace dtof

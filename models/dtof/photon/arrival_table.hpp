@@ -13,36 +13,38 @@
 
 namespace dtof {
 
-/// E[min(N, slots)] for N Poisson with this mean: the detections that a TDC keeps. `mean` >= 0, slots >= 1.
+/// E[min(N, slots)] for a Poisson number N with this mean >= 0: the mean number of events that a TDC with
+/// `slots` >= 1 keeps.
 double kept_events(double mean, int slots);
-/// P(N >= k) for N Poisson with this mean >= 0, k >= 0.
+/// P(N >= k) for a Poisson number N with this mean >= 0; k >= 0.
 double at_least(int k, double mean);
 
-/// Cumulative mean events C(t) of a pixel over one acquisition (flat background plus a Gaussian pulse inside
-/// the time gate) and its inverse. By the time change of a Poisson process, the inverse of a unit-rate
-/// process's points are the pixel's events in time order.
+/// Table of a pixel's cumulative mean events C(t) over one acquisition, and of its inverse. Events are a flat
+/// background and a Gaussian pulse inside the time gate. The inverse maps points of a Poisson process with
+/// rate 1 to the pixel's events in time order (time change of a Poisson process). Time is in units of T_res.
 ///
-/// The mean number of kept events before t is kept_events(C(t), slots) (first `slots` events of an
-/// acquisition): built on that scale, the table gives times of kept events.
+/// A TDC keeps the first `slots` events of an acquisition. The mean number of kept events before t is
+/// kept_events(C(t), slots); a table on that scale gives times of kept events.
 ///
-/// The inverse is a monotone cubic (Hermite) between knots: every 1/4 sigma over the pulse, up to 6 sigma on
-/// both sides (the 2e-9 beyond are dropped), every 32nd of the range elsewhere. It is looked up in 256 cells
-/// of equal C, quadratic in each; only cells with several knots or a steep density, into which the tails of a
-/// pulse on little background fall, are searched. Time is in units of T_res.
+/// The inverse is a monotone cubic (Hermite) between knots. Knots lie every 1/4 sigma over the pulse, up to 6
+/// sigma on both sides (the 2e-9 beyond are dropped), and every 32nd of the range elsewhere. For speed the
+/// inverse is stored in 256 cells of equal C, quadratic in each. Only cells with several knots or a steep
+/// density are searched, e.g. the tails of a pulse on little background.
 class ArrivalTable {
  public:
   explicit ArrivalTable(const SensorModel& model);
 
-  /// Builds the table of C(t). Nothing is done if `rates` are those of the table already built.
+  /// Builds the table of C(t). Does nothing if the table for `rates` is already built.
   void build(const PixelRates& rates) { build(rates, 0); }
-  /// Builds the table of kept events.
+  /// Builds the table of kept events. Does nothing if the table for `rates` and `slots` is already built.
   void build_kept(const PixelRates& rates, int slots) { build(rates, slots); }
 
-  /// Mean events, or kept events, of an acquisition inside the gate.
+  /// Mean events of an acquisition inside the gate, on the scale of the table (all events or kept events).
   [[nodiscard]] double total() const { return total_; }
-  /// Mean events of an acquisition inside the gate, on either scale.
+  /// Mean events of an acquisition inside the gate, whatever the scale.
   [[nodiscard]] double events() const { return events_; }
-  /// Time of a point `cumulative` in [0, total()); within [gate begin, gate end). Needs total() > 0.
+  /// Time at which the mean number of events is `cumulative`, in [0, total()). Lies within [gate begin, gate
+  /// end). Requires total() > 0.
   [[nodiscard]] double inverse(double cumulative) const {
     const double position = cumulative * cells_per_event_;
     const auto index = std::min(static_cast<std::uint32_t>(static_cast<std::int32_t>(position)), kCells - 1);
@@ -52,14 +54,14 @@ class ArrivalTable {
                                              : search(cumulative, static_cast<std::size_t>(cell.time));
     return std::min(time, last_time_);
   }
-  /// The whole bins of `inverse` of each: as many codes.
+  /// Codes (inverse rounded down) of all values of `cumulative`; both spans have the same length.
   void inverse_codes(std::span<const double> cumulative, std::span<Timestamp> codes) const;
-  /// Mean before `time`, 0 .. total().
+  /// Mean events before `time`, 0 .. total(), on the scale of the table.
   [[nodiscard]] double cumulative(double time) const;
 
-  /// Mean absolute displacement of an event, in bins, against the exact distribution: the area between the
-  /// table of C(t) and the exact C(t), over C's total (Wasserstein distance). For a table on the scale of C;
-  /// 0 without a pulse in the gate.
+  /// Mean absolute displacement of an event against the exact distribution, in bins (Wasserstein distance):
+  /// the area between the table and the exact C(t), divided by C's total. For a table of C(t); 0 without a
+  /// pulse in the gate.
   [[nodiscard]] double displacement() const;
 
  private:

@@ -13,7 +13,8 @@
 
 namespace dtof {
 
-/// 64 bits a call, so that Boost's ziggurats fill a double's mantissa from one word. One per pixel.
+/// Random generator with 64 bits per call, so that Boost's ziggurats fill a double's mantissa from one word.
+/// Use one per pixel.
 class Bits64 {
  public:
   using result_type = std::uint64_t;
@@ -24,7 +25,7 @@ class Bits64 {
   static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
   result_type operator()() { return batch()[next_++]; }
 
-  /// The batch that the next word is of, and the word's place in it; `skip_to` passes over words.
+  /// Batch that holds the next word; next() is the word's index in it, and `skip_to` passes over words.
   std::span<const std::uint64_t, kBatch> batch() {
     if (next_ == kBatch) {
       random_.fill(words_);
@@ -44,7 +45,7 @@ class Bits64 {
 inline double draw_exponential(Bits64& bits) {
   return boost::random::exponential_distribution<double>(1.0)(bits);
 }
-/// In [0, 1).
+/// Uniform in [0, 1).
 inline double draw_uniform(Bits64& bits) { return static_cast<double>(bits() >> 11U) * 0x1.0p-53; }
 inline double draw_normal(Bits64& bits) { return boost::random::normal_distribution<double>(0.0, 1.0)(bits); }
 

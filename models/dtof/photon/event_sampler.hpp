@@ -15,24 +15,26 @@
 
 namespace dtof {
 
-/// Draws the events of one pixel over a frame, in time order, and keeps its buffers from pixel to pixel.
+/// Draws the events of one pixel over a frame, in time order. Keeps its buffers from pixel to pixel.
 ///
-/// An event is a position on the frame's concatenated time axis in units of T_res: acquisition * 2^NP + t,
-/// 0 <= t < 2^NP, so that floor(position) holds acquisition and TDC code. Time gate and dead time have been
-/// applied, and afterpulses follow the counted events. Both Poisson processes are walked by exponential gaps:
-/// acquisitions without events cost nothing, and the distribution is exact. Positions are rounded to 2^-52 of
-/// the frame.
+/// An event is a position on the frame's concatenated time axis in units of T_res: acquisition * 2^NP + t
+/// with 0 <= t < 2^NP. So floor(position) holds acquisition and TDC code. Time gate and dead time are
+/// applied, and afterpulses are included.
+///
+/// Both Poisson processes (signal and background) are walked by exponential gaps. So acquisitions without
+/// events cost nothing, and the distribution is exact. Positions are rounded to 2^-52 of the frame.
 class EventSampler {
  public:
   static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
-  /// `keep`: only the first `keep` events of an acquisition are wanted (kAll: every one).
+  /// `keep`: number of first events of an acquisition that are needed; kAll: all.
   EventSampler(const SensorModel& model, std::size_t keep);
 
-  /// Valid until the next call.
+  /// Events of a pixel without surroundings. Valid until the next call.
   std::span<const double> sample(const PixelRates& rates, CounterRandom random);
-  /// The same with what the sensor's surroundings do, which must do something (Surroundings::none). Returns
-  /// that they add are drawn from `further`; all events of an acquisition are given.
+  /// Events of a pixel in surroundings; the sensor must have some (Surroundings::none is false). Additional
+  /// returns are drawn from `further`. All events of an acquisition are returned, whatever `keep` is. Valid
+  /// until the next call.
   std::span<const double> sample(const PixelReturns& returns, CounterRandom random, CounterRandom further);
 
  private:
@@ -53,11 +55,11 @@ class EventSampler {
   double gate_end_;
   double sigma_;
   double dead_time_;
-  std::shared_ptr<const PulseResponse> response_;  // in units of T_res; none: a Gaussian of sigma_
+  std::shared_ptr<const PulseResponse> response_;  // in units of T_res; null: a Gaussian of sigma_
   double afterpulse_probability_;
   double afterpulse_time_constant_;
   std::size_t keep_;
-  std::shared_ptr<const ReturnSampler> returns_;  // none: nothing surrounds the sensor
+  std::shared_ptr<const ReturnSampler> returns_;  // null: no surroundings
 
   // Each process's events between two sentinels.
   std::vector<double> background_;

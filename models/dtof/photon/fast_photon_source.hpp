@@ -9,20 +9,19 @@
 
 namespace dtof {
 
-/// Faster stand-in for a PhotonSource: times come from a table of the pixel's cumulative mean events
-/// (ArrivalTable) instead of single events. Pile-up to SLOTS is included; other random numbers than the exact
-/// source's. Time gates, jitter, hot and dead pixels work; dead time, afterpulsing, binning, coincidence, a
-/// measured pulse, TDC code widths and surroundings need the exact source.
+/// Faster, approximate replacement of a PhotonSource, with other random numbers. Times come from a table of
+/// the pixel's cumulative mean events (ArrivalTable) instead of single events. Included are pile-up to SLOTS,
+/// time gates, jitter, hot and dead pixels. Dead time, afterpulsing, binning, coincidence, a measured pulse,
+/// TDC code widths and surroundings need the exact source.
 ///
-/// Streams (`column`): a pixel of few events per acquisition is drawn by the exact model. For others one
+/// Streams (`column`): pixels with few events per acquisition are drawn by the exact model. In others, one
 /// exponential gap per detection gives acquisition and time together; empty acquisitions and events after the
-/// last slot are not visited. Their times are displaced by ArrivalTable::displacement against the exact
-/// distribution; nothing else is approximated.
+/// last slot cost nothing. The only approximation: times are displaced by ArrivalTable::displacement.
 ///
-/// Sampler (`pixel_sampler`): the number of a measurement's detections, then their times from the
-/// distribution of kept events, only those inside the asked window. Approximated beyond the table: which
-/// detections share an acquisition is forgotten. Pixels of more than 0.7 events an acquisition are walked as
-/// the streams of bright pixels are, without that approximation.
+/// Sampler (`pixel_sampler`): draws the number of a measurement's detections, then their times from the
+/// distribution of kept events, only inside the requested window. This ignores which detections share an
+/// acquisition, a second approximation. Pixels with more than 0.7 events per acquisition are drawn as their
+/// streams are, without it.
 class FastPhotonSource final : public SampledSource {
  public:
   /// Throws InputError unless supports().
@@ -35,7 +34,7 @@ class FastPhotonSource final : public SampledSource {
   [[nodiscard]] ColumnStream column_rows(int index, RowRange range) const override;
   [[nodiscard]] std::unique_ptr<PixelSampler> pixel_sampler() const override;
 
-  /// False for what only the exact source models.
+  /// False if the model has an effect that only the exact source includes.
   static bool supports(const SensorModel& model);
 
  private:

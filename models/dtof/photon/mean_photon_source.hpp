@@ -8,10 +8,10 @@
 
 namespace dtof {
 
-/// The analytic model as a source: no random numbers. A pixel's detections are the expected number, spread
-/// evenly over the acquisitions, with times that fill the distribution of kept events evenly (multiples of
-/// the golden ratio's fraction, Weyl 1916). What a read-out makes of it is its systematic error alone.
-/// It models what FastPhotonSource does (FastPhotonSource::supports).
+/// Photon source without random numbers. A pixel has the expected number of detections, spread evenly over
+/// the acquisitions. Their times fill the distribution of kept events evenly (multiples of the golden ratio's
+/// fraction, Weyl 1916). So a read-out's errors are systematic errors alone. Supports the same sensors as
+/// FastPhotonSource (FastPhotonSource::supports).
 class MeanPhotonSource final : public SampledSource {
  public:
   /// Throws InputError unless FastPhotonSource::supports().

@@ -16,35 +16,35 @@ namespace dtof {
 
 /// TDC stream of a modelled scene, exact event by event (spec section 4).
 ///
-/// Per acquisition and pixel: Poisson numbers of signal events (Gaussian, or a measured pulse with its
-/// centroid, at 2R/c + FWHM) and background events (flat); events outside [0, T_int) are lost. Dead pixels
-/// have none; hot ones have more dark counts. Then, in this order:
-///  1. time gate: only events inside count;
-///  2. dead time: an event within it after the pixel's last counted event is lost; it ends with the
-///     acquisition; afterpulses: a counted event draws another one behind the dead time, which is counted
-///     unless the acquisition or the gate is over or a dead time is under way, and may draw the next;
-///  3. coincidence window: an event counts only if one of the four neighbouring pixels has an event of the
-///     same acquisition at most W away;
-///  4. binning: the B x B pixels of a block (cut at the array's border) share one stream, the union of
-///  theirs;
-///  5. the TDC keeps the first SLOTS events in time order, code = floor(t / T_res), or by its own code widths
-///  (TdcCodes; those of a block's pixels stay their own).
-/// An event in the last bin gets the no-detection code: it takes its slot, and read-outs drop it.
+/// Each pixel and acquisition has Poisson numbers of signal events and of background events. Signal events
+/// follow a Gaussian at 2R/c + FWHM, or a measured pulse with its centroid there; background is flat. Events
+/// outside [0, T_int) are lost. Dead pixels have no events, hot pixels have more dark counts. Then, in this
+/// order:
+///  1. Time gate: only events inside count.
+///  2. Dead time: an event within the dead time after the pixel's last counted event is lost; dead time ends
+///     with the acquisition. Afterpulses: a counted event may draw another one after the dead time. It is
+///     counted unless the acquisition or the gate is over or the pixel is dead again, and may draw the next.
+///  3. Coincidence window: an event counts only if one of the four neighbouring pixels has an event at most W
+///     away in the same acquisition.
+///  4. Binning: the B x B pixels of a block (cut at the array's border) share one stream, the union of their
+///     events.
+///  5. TDC: the first SLOTS events in time order are kept, with code = floor(t / T_res) or by the pixel's own
+///     code widths (TdcCodes).
+/// An event in the last bin gets the no-detection code: it takes a slot, and read-outs drop it.
 ///
-/// What surrounds the sensor (photon/surroundings.hpp) adds to the events before 1.; a plain sensor's photons
-/// are the same with the program that knows it and without.
+/// Surroundings (photon/surroundings.hpp) add events before step 1. Without surroundings the photons are the
+/// same as if the program had no such model.
 ///
-/// Random numbers depend on seed, frame and pixel alone. Copies are cheap. Some rows of a column
-/// (column_rows) draw no other pixel's events, but for coincidence and binning, which need those of
-/// neighbours and of the block.
+/// Random numbers depend on seed, frame and pixel alone. Copies are cheap. column_rows draws only the events
+/// of the requested rows, except for coincidence (also their neighbours) and binning (the whole blocks).
 class PhotonSource final : public StreamSource {
  public:
-  /// Throws InputError for illegal physics (SensorModel::validate, TargetMap::validate; `klux` finite and
-  /// >= 0; rates that overflow).
+  /// Throws InputError for illegal physics: see SensorModel::validate and TargetMap::validate; `klux` must be
+  /// finite and >= 0, and no rate may overflow.
   PhotonSource(SensorModel model, TargetMap targets, double klux, std::uint64_t seed,
                std::uint32_t frame = 0);
 
-  /// The same scene and seed at another frame.
+  /// Same scene and seed, another frame.
   [[nodiscard]] PhotonSource at_frame(std::uint32_t frame) const;
 
   [[nodiscard]] int columns() const override { return targets_->columns(); }
@@ -56,19 +56,21 @@ class PhotonSource final : public StreamSource {
   [[nodiscard]] const SensorModel& model() const { return model_; }
   [[nodiscard]] const TargetMap& targets() const { return *targets_; }
   [[nodiscard]] double klux() const { return klux_; }
-  /// Mean events of a pixel before any loss, of a hot or dead pixel its own: background and the target's
-  /// return, as fog, a pane and skew leave them. Other returns and what changes in the frame are not in it.
+  /// Mean events of a pixel before any loss: background and the target's return, after fog, pane and skew.
+  /// Includes a hot pixel's dark counts; 0 for a dead pixel. Excludes other returns and changes during the
+  /// frame.
   [[nodiscard]] PixelRates rates(int column, int row) const;
-  /// All that a pixel receives.
+  /// All mean events of a pixel, returns of the surroundings included.
   [[nodiscard]] PixelReturns returns(int column, int row) const;
-  /// Random numbers of a pixel in this frame.
+  /// Random generator of a pixel in this frame.
   [[nodiscard]] CounterRandom random(int column, int row,
                                      RandomPurpose purpose = RandomPurpose::kPhotons) const;
-  /// What `sampler`, of this source's model, draws of a pixel. Valid until its next call.
+  /// Events of a pixel, drawn by `sampler`, which must have this source's model. Valid until the sampler's
+  /// next call.
   std::span<const double> sample(EventSampler& sampler, int column, int row,
                                  RandomPurpose purpose = RandomPurpose::kPhotons) const;
 
-  /// Row by row.
+  /// Index of a pixel, row by row.
   [[nodiscard]] std::size_t pixel_number(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns()) +
            static_cast<std::size_t>(column);
@@ -84,11 +86,11 @@ class PhotonSource final : public StreamSource {
   double klux_;
   std::uint64_t seed_;
   std::uint32_t frame_;
-  bool plain_ = true;  // nothing surrounds the sensor
+  bool plain_ = true;  // no surroundings
 };
 
-/// Streams of single pixels of a PhotonSource without binning and coincidence, one after the other: keeps its
-/// buffers between them. The source must outlive it. Not thread-safe.
+/// Draws the streams of single pixels of a PhotonSource without binning and coincidence, and keeps its
+/// buffers between them. The source must outlive this object. Not thread-safe.
 class PixelStreams {
  public:
   explicit PixelStreams(const PhotonSource& source);
@@ -98,7 +100,7 @@ class PixelStreams {
   PixelStreams& operator=(PixelStreams&&) = delete;
   ~PixelStreams();
 
-  /// Appends the pixel's row to `stream`, drawn from random numbers of `purpose`.
+  /// Appends the pixel's row to `stream`. `purpose` selects the random numbers.
   void append(int column, int row, ColumnStream& stream, RandomPurpose purpose = RandomPurpose::kPhotons);
 
  private:

@@ -13,37 +13,38 @@ namespace dtof {
 
 struct SensorModel;
 
-/// Mean events of one pixel, before anything is lost.
+/// Mean events of one pixel, before any loss.
 struct PixelRates {
-  double background = 0.0;   ///< per T_int, flat
+  double background = 0.0;   ///< per T_int, flat in time
   double signal = 0.0;       ///< per pulse
   double centre_bins = 0.0;  ///< mean arrival time of the signal in units of T_res
 };
 
-/// What one pixel receives in surroundings.
+/// Mean events of one pixel with surroundings.
 struct PixelReturns {
-  PixelRates rates;         ///< background, and the target's return at the frame's middle; skew included
-  double distance_m = 0.0;  ///< of the target at the frame's middle; 0: none
+  PixelRates rates;         ///< background and the target's return at the frame's middle, skew included
+  double distance_m = 0.0;  ///< distance of the target at the frame's middle; 0: no target
   double skew_bins = 0.0;
   bool dead = false;
 };
 
-/// Draws the events of one pixel over a frame that its surroundings add: cover glass, fog, pane, other laser,
-/// and the target's own if they change during the frame (Surroundings::signal_changes).
+/// Draws the additional events of one pixel over a frame that its surroundings cause: cover glass, fog, pane
+/// and other laser. If the target's return changes during the frame (Surroundings::signal_changes), it is
+/// drawn here too.
 ///
-/// Each return is a Poisson process over the frame's pulses. What changes from pulse to pulse is drawn at its
-/// highest rate and thinned, which is exact.
+/// Each return is a Poisson process over the frame's pulses. A rate that changes from pulse to pulse is drawn
+/// at its maximum and thinned, which is exact.
 class ReturnSampler {
  public:
   explicit ReturnSampler(const SensorModel& model);
 
   [[nodiscard]] bool signal_changes() const { return signal_changes_; }
-  /// The events in time order, as positions (EventSampler), inside the time gate.
+  /// Events inside the time gate, in time order, as positions (EventSampler).
   void draw(const PixelReturns& returns, CounterRandom& random, std::vector<double>& positions) const;
 
  private:
   class Walk;
-  /// A pulse of the other laser that arrives in an acquisition's range.
+  /// A pulse of the other laser that arrives within an acquisition.
   struct Arrival {
     std::uint32_t acquisition;
     double centre_bins;
@@ -70,14 +71,14 @@ class ReturnSampler {
   double gate_end_;
   double sigma_;
   double other_sigma_;
-  std::shared_ptr<const PulseResponse> response_;  // in units of T_res; none: a Gaussian of sigma_
+  std::shared_ptr<const PulseResponse> response_;  // in units of T_res; null: a Gaussian of sigma_
   double pulse_fwhm_s_;
   double time_resolution_s_;
   double signal_events_1m_;
-  double metres_per_pulse_;  // that a target moves
+  double metres_per_pulse_;  // distance that a target moves from pulse to pulse
   double highest_power_ = 1.0;
-  std::vector<double> powers_;       // of each pulse over the settled one; empty: always 1
-  std::vector<double> delays_bins_;  // of each pulse; empty: none
+  std::vector<double> powers_;       // power of each pulse relative to the settled one; empty: always 1
+  std::vector<double> delays_bins_;  // delay of each pulse; empty: none
   std::vector<Arrival> arrivals_;
 };
 

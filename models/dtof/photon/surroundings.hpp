@@ -6,11 +6,11 @@
 
 namespace dtof {
 
-// What lies between a sensor and its targets, and what a laser, a TDC and a target do during a frame. Each is
-// off unless it is set. Distances are in m, times in s; events are those of a pixel and pulse.
+// Effects between a sensor and its targets, and changes of laser, TDC and target during a frame. Each effect
+// is off by default. Distances are in m, times in s, events per pixel and pulse.
 
-/// Crosstalk of the cover glass: light that the glass before laser and lens scatters straight into the
-/// pixels, an early return that is the same in every pulse and pixel.
+/// Crosstalk of the cover glass: light that the glass in front of laser and lens scatters straight into the
+/// pixels. This early return is the same in every pulse and pixel.
 struct CoverGlass {
   double events = 0.0;  ///< 0: no glass
   double distance_m = 0.03;
@@ -18,21 +18,23 @@ struct CoverGlass {
   bool operator==(const CoverGlass&) const = default;
 };
 
-/// A homogeneous medium that scatters: fog, smoke, dust. With the extinction alpha and the lidar ratio L, a
-/// layer dR at R returns S pi (alpha / L) exp(-2 alpha R) / R^2 dR events, S being the sensor's events of a
-/// Lambertian target of reflectivity 1 at 1 m, whose backscatter is 1 / pi per sr; a target at R keeps
-/// exp(-2 alpha R) of its signal. Single scattering. Sunlight stays as it is: what the fog takes from the
-/// target's it adds of its own.
+/// A homogeneous scattering medium: fog, smoke, dust. Single scattering.
+///
+/// With the extinction alpha and the lidar ratio L, a layer dR at R returns S pi (alpha / L) exp(-2 alpha R)
+/// / R^2 dR events. S is the sensor's signal from a Lambertian target of reflectivity 1 at 1 m, whose
+/// backscatter is 1 / pi per sr. A target at R keeps exp(-2 alpha R) of its signal. Sunlight is unchanged:
+/// the fog's own scattered sunlight replaces what it takes from the target's.
 struct Fog {
   double extinction_per_m = 0.0;  ///< alpha; 0: no fog
-  double lidar_ratio_sr = 18.8;   ///< L, extinction over backscatter; water droplets (O'Connor et al. 2004)
-  double overlap_m = 0.1;  ///< from here on a pixel sees what the laser lights; nothing returns from before
+  /// L, extinction divided by backscatter; water droplets (O'Connor et al. 2004).
+  double lidar_ratio_sr = 18.8;
+  double overlap_m = 0.1;  ///< nearest distance that both laser and pixel cover; no return from nearer
 
   bool operator==(const Fog&) const = default;
 };
 
-/// A pane of glass before what is behind it: a first surface of its own, Lambertian, e.g. by its dust. It
-/// attenuates what is behind twice, and the sunlight of what is behind once.
+/// A pane of glass in front of the target. Its surface, e.g. with dust, is a Lambertian target of its own.
+/// The pane attenuates the laser light of targets behind it twice, and their sunlight once.
 struct Pane {
   double distance_m = 0.0;  ///< 0: no pane
   double reflectivity = 0.0;
@@ -41,65 +43,68 @@ struct Pane {
   bool operator==(const Pane&) const = default;
 };
 
-/// The laser of another sensor, which every pixel sees alike. It fires (1 + rate_offset) times as often as
-/// the sensor's own, and its first pulse arrives `first_arrival_s` after the frame's begin.
+/// The laser of another sensor, seen equally by every pixel. It fires (1 + rate_offset) times as often as the
+/// sensor's own laser. Its first pulse arrives `first_arrival_s` after the frame's start.
 struct OtherLaser {
-  double events = 0.0;       ///< of each of its pulses; 0: no other laser
+  double events = 0.0;       ///< events of each of its pulses; 0: no other laser
   double rate_offset = 0.0;  ///< relative, above -1; 6e-6: 6 ppm faster
   double first_arrival_s = 0.0;
-  double pulse_fwhm_s = 0.0;  ///< Gaussian; 0: that of the sensor's own pulse
+  double pulse_fwhm_s = 0.0;  ///< Gaussian; 0: FWHM of the sensor's own pulse
 
   bool operator==(const OtherLaser&) const = default;
 };
 
-/// Targets that come nearer or go away during the frame. A target's distance is that at the frame's middle.
+/// Targets that approach or recede during the frame. A target's distance is its distance at the frame's
+/// middle.
 struct RadialMotion {
-  double velocity_m_per_s = 0.0;  ///< along the pixel's ray, above 0: away
+  double velocity_m_per_s = 0.0;  ///< along the pixel's ray; above 0: away
 
   bool operator==(const RadialMotion&) const = default;
 };
 
-/// A laser that is not settled when the frame begins. Power and delay approach their final values
-/// exponentially from the first pulse on.
+/// A laser that is not settled when the frame starts. Power and delay approach their final values
+/// exponentially, from the first pulse.
 struct LaserSettling {
-  double silent_share = 0.0;  ///< of the frame, 0 to 1, at its begin: no pulses
+  double silent_share = 0.0;  ///< share of the frame, 0 to 1, at its start: no pulses
   double power_drop = 0.0;    ///< 0 to 1; the first pulse has 1 - power_drop of the final power
-  double delay_s = 0.0;       ///< of the first pulse
-  double time_share = 0.0;    ///< time constant over the frame's length; above 0 with the two before
-  double power_drift = 0.0;   ///< linear, from 1 - drift / 2 to 1 + drift / 2 over the frame; -2 to 2
+  double delay_s = 0.0;       ///< additional delay of the first pulse
+  /// Time constant divided by the frame's length; above 0 if power_drop or delay_s is set.
+  double time_share = 0.0;
+  double power_drift = 0.0;  ///< linear, from 1 - drift / 2 to 1 + drift / 2 over the frame; -2 to 2
 
   bool operator==(const LaserSettling&) const = default;
 
-  /// Power of the pulse of this acquisition over the final power, drift included.
+  /// Power of the pulse of this acquisition relative to the final power, drift included.
   [[nodiscard]] double power(std::uint32_t acquisition, std::uint32_t acquisitions) const;
   [[nodiscard]] double delay(std::uint32_t acquisition, std::uint32_t acquisitions) const;
 };
 
 enum class SkewPattern {
-  kAlternating,  ///< even columns by plus, odd ones by minus the skew
-  kRamp,         ///< from minus at the first column to plus at the last
-  kRandom,       ///< uniform between minus and plus, of each column by itself
+  kAlternating,  ///< even columns by +skew, odd columns by -skew
+  kRamp,         ///< linear from -skew at the first column to +skew at the last
+  kRandom,       ///< uniform between -skew and +skew, independent for each column
 };
 
-/// Delay of a pixel's timestamps by the way of the TDC's clock or start signal. Nothing of the sunlight's
-/// flat distribution changes.
+/// Delay of a pixel's timestamps caused by the distribution of the TDC's clock or start signal. The flat
+/// distribution of sunlight does not change.
 struct TimingSkew {
-  double column_s = 0.0;  ///< of columns, by the pattern
+  double column_s = 0.0;  ///< skew of a column, distributed by the pattern
   SkewPattern pattern = SkewPattern::kRandom;
-  double pixel_s = 0.0;  ///< uniform between minus and plus, of each pixel by itself; adds to its column's
+  /// Uniform between -pixel_s and +pixel_s, independent for each pixel; added to the column's skew.
+  double pixel_s = 0.0;
   std::uint64_t seed = 1;
 
   bool operator==(const TimingSkew&) const = default;
 
   [[nodiscard]] bool none() const { return column_s == 0.0 && pixel_s == 0.0; }
-  /// Skew of a pixel of an array of `columns`, the same in every frame.
+  /// Skew of a pixel, s, in an array of `columns`; the same in every frame.
   [[nodiscard]] double of_pixel(int column, int row, int columns) const;
 };
 
-/// Firing offsets (start dither): shot and start of the TDC are delayed together by a pseudo-random number of
-/// steps, 0 to 2^bits - 1, so that only what does not follow the laser moves. Low bits of a linear feedback
-/// register of 16 bits (x^16 + x^14 + x^13 + x^11 + 1) that makes 16 steps for each pulse and starts anew in
-/// every frame.
+/// Firing offsets (start dither). Laser shot and TDC start are delayed together by a pseudo-random number of
+/// steps, 0 to 2^bits - 1, so only events that do not follow the laser move. The number is the low bits of a
+/// 16-bit linear feedback shift register (x^16 + x^14 + x^13 + x^11 + 1). The register makes 16 steps per
+/// pulse and restarts in every frame.
 struct FiringOffsets {
   int bits = 0;  ///< 0: off; at most 12
   double step_s = 0.0;
@@ -123,22 +128,22 @@ struct Surroundings {
 
   bool operator==(const Surroundings&) const = default;
 
-  /// Nothing changes a photon. Firing offsets alone do not.
+  /// True if no effect changes a photon's time or number. Firing offsets alone count as none.
   [[nodiscard]] bool none() const;
-  /// The signal's rate or time changes during the frame.
+  /// True if the signal's rate or time changes during the frame.
   [[nodiscard]] bool signal_changes() const;
 
-  /// Share of the light of a target at this distance that comes back.
+  /// Share of the laser light of a target at this distance that returns, after fog and pane.
   [[nodiscard]] double two_way_transmittance(double distance_m) const;
-  /// Share of a target's sunlight that reaches the sensor.
+  /// Share of a target's sunlight that reaches the sensor, 0 .. 1.
   [[nodiscard]] double sunlight_share(double distance_m, bool target) const;
 
   /// Throws InputError with one sentence for a value that is NaN, infinite or outside its range.
   void validate() const;
 };
 
-/// Mean backscattered events of a pulse from the fog up to `distance_m`, without a pane: S pi alpha / L
-/// (E2(2 alpha R0) / R0 - E2(2 alpha R) / R), with E2 the exponential integral and R0 the overlap.
+/// Mean backscattered events of a pulse from the fog up to `distance_m`, without a pane: S pi alpha / L (E2(2
+/// alpha R0) / R0 - E2(2 alpha R) / R). E2 is the exponential integral, R0 the overlap distance.
 double fog_events(const Fog& fog, double signal_events_1m, double distance_m);
 
 }  // namespace dtof

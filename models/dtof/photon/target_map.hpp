@@ -6,12 +6,12 @@
 
 namespace dtof {
 
-/// What one pixel looks at.
+/// Target of one pixel.
 struct PixelTarget {
   double depth_m = 0.0;       ///< > 0; 0 or +infinity: no target, background only
   double reflectivity = 1.0;  ///< >= 0; above 1 for mirrors; also scales the reflected sunlight
 
-  /// True if laser light can come back. Assumes a valid target.
+  /// True if laser light can return. Assumes a valid target.
   [[nodiscard]] bool returns_signal() const;
 
   bool operator==(const PixelTarget&) const = default;
@@ -20,7 +20,7 @@ struct PixelTarget {
 /// One target per pixel of an array of columns() x rows(); column = x, row = y.
 class TargetMap {
  public:
-  /// All pixels are `target`. Throws InputError unless columns and rows are at least 1.
+  /// Gives all pixels the same `target`. Throws InputError unless columns and rows are at least 1.
   TargetMap(int columns, int rows, PixelTarget target = {});
 
   [[nodiscard]] int columns() const { return columns_; }

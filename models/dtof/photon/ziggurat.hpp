@@ -7,19 +7,19 @@
 
 namespace dtof {
 
-/// The draws of a ziggurat of Boost.Random (normal or exponential, mean 0 or 1, double) that its first 64-bit
-/// word decides, which are 97 of 100. The loop of a caller that leaves the others to Boost has no call in it,
-/// so that its sums stay in registers.
+/// The fast path of Boost.Random's ziggurats (normal or exponential, mean 0 or 1, double): draws that the
+/// first 64-bit word decides, 97 of 100. The caller leaves the other draws to Boost; its inner loop then has
+/// no call, and its sums stay in registers.
 class Ziggurat {
  public:
-  /// As boost::random::exponential_distribution<double>(1.0) draws.
+  /// Draws as boost::random::exponential_distribution<double>(1.0).
   static const Ziggurat& exponential();
-  /// As boost::random::normal_distribution<double>(0.0, 1.0) draws.
+  /// Draws as boost::random::normal_distribution<double>(0.0, 1.0).
   static const Ziggurat& normal();
 
   struct Draw {
     double value;
-    bool decided;  ///< false: Boost needs more words, and may give another value
+    bool decided;  ///< false: Boost needs more words, and its value may differ
   };
   [[nodiscard]] Draw draw(std::uint64_t word) const {
     const Layer& layer = layers_[word & 0xFFU];

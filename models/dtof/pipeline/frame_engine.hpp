@@ -16,15 +16,16 @@
 
 namespace dtof {
 
-/// A frame read out by an engine.
+/// Results of a frame that an engine read out.
 struct ReadoutRun {
-  std::vector<PixelResult> results;  ///< of the region, as Region says
-  std::uint64_t cycles = 0;          ///< clocks of a frame in `array`; 0 for the model, or if not known
-  std::string array;                 ///< "200 columns of 160 rows"; empty for the model
-  double seconds = 0.0;              ///< wall time, photon generation included
+  std::vector<PixelResult> results;  ///< pixels of the region, row-major (Region)
+  std::uint64_t cycles = 0;          ///< clocks of a frame in `array`; 0 for the models, or if unknown
+  std::string array;                 ///< e.g. "200 columns of 160 rows"; empty for the models
+  double seconds = 0.0;              ///< wall time in s, photon generation included
 };
 
-/// What turns photons into results: the models, or hardware that a program brings along.
+/// Converts photons into results. Implementations: the models (ModelEngine), or hardware that a program
+/// provides.
 class FrameEngine {
  public:
   FrameEngine() = default;
@@ -34,23 +35,23 @@ class FrameEngine {
   FrameEngine& operator=(FrameEngine&&) = default;
   virtual ~FrameEngine() = default;
 
-  /// True if `read` asks a source that can be sampled (SampledSource) for the photons of one measurement at a
-  /// time; false if it reads streams.
+  /// True if `read` draws the photons from a SampledSource measurement by measurement; false if it reads
+  /// streams.
   [[nodiscard]] virtual bool reads_samples(Readout readout) const = 0;
-  /// Reads a region of the source out. Throws InputError for a region outside of it.
+  /// Reads out a region of `source`. Throws InputError for a region outside `source`.
   [[nodiscard]] virtual ReadoutRun read(const StreamSource& source, const ReadoutParameters& parameters,
                                         const Region& region) const = 0;
 };
 
-/// The bit-exact models. A pool read-out's array has the sensor's rows, by default at least kArrayRows, and
-/// those outside the region are dark.
+/// The bit-exact models. A pool read-out's array has the sensor's rows, at least kArrayRows by default; rows
+/// outside the region are dark.
 class ModelEngine final : public FrameEngine {
  public:
   struct Settings {
     int threads = 0;            ///< 0: all processors
-    bool streams_only = false;  ///< read streams even from a source that could be sampled
-    bool own_rows = false;      ///< a pool read-out's array has the sensor's rows alone, however few
-    /// Is told which column of how many is done; none: the progress is on standard error.
+    bool streams_only = false;  ///< read streams even if the source can be sampled
+    bool own_rows = false;  ///< a pool read-out's array has only the sensor's rows, even if below kArrayRows
+    /// Called with the columns done and the total; null: progress goes to standard error.
     Progress::Observer observer = {};
   };
 

@@ -21,89 +21,92 @@
 
 namespace dtof {
 
-/// Most laser pulses of a frame: the detections of a column are held in memory.
+/// Largest number of laser pulses in a frame, because a column's detections are held in memory.
 inline constexpr double kMostAcquisitions = 1048575;
 
-/// Throws InputError if a column of so many rows could have more detections than are held: 160 rows, two
-/// slots and kMostAcquisitions make 2.7 GB.
+/// Throws InputError if the detections of a column of `rows` rows might exceed the memory limit, which is 2.7
+/// GB (160 rows, two slots and kMostAcquisitions).
 void check_frame_memory(const SensorModel& sensor, int rows);
 
-/// The photon model of a name of `--fidelity`, auto included, for read-outs that the engine reads. Throws
-/// InputError.
+/// Photon model for the name given with `--fidelity`; "auto" chooses for `readouts` as `engine` reads them.
+/// Throws InputError for an unknown name or an illegal tolerance.
 Fidelity frame_fidelity(std::string_view name, double tolerance, const PhotonSource& scene,
                         std::span<const ReadoutParameters> readouts, const FrameEngine& engine);
 
-/// The look-up table of each read-out's model behind `--table flat` (FlatCalibration), from photons of the
-/// sensor as a host calibrates it. All tables are fitted to the same photons. Throws InputError.
+/// Look-up table of each read-out's model for `--table flat` (FlatCalibration). All tables are fitted to the
+/// same photons, drawn for the sensor as a host calibrates it (SensorModel::as_calibrated). Throws InputError
+/// as FlatCalibration does.
 std::vector<RangeConverter> flat_tables(const SensorModel& sensor, double klux, Fidelity fidelity,
                                         std::span<const ReadoutParameters> readouts, std::uint64_t seed,
                                         int threads);
 
-/// A read-out and its look-up table; without a table Eq. 3.11 gives the distances.
+/// A read-out and its look-up table. Without a table, Eq. 3.11 gives the distances.
 struct TabledReadout {
   ReadoutParameters parameters;
   std::optional<RangeConverter> table;
 };
 
-/// When to stop taking frames: the 95 % interval of the rmse is at most this part of its value to either
-/// side, or there were so many frames.
+/// Stop rule for a series of frames: the 95 % interval of the rmse is within +- `relative` of its value, or
+/// `most_frames` were read.
 struct FramePrecision {
   double relative = 0.05;
   int most_frames = 1000;
 };
 
-/// What one read-out made of the frame, over the region read. Of several frames the run's results and the
-/// maps are those of the first.
+/// Measurement of a read-out over the region. With several frames, `run`'s results and the maps are those of
+/// the first.
 struct MeasuredFrame {
   ReadoutParameters parameters;
-  ReadoutRun run;  ///< seconds: of all frames
-  FrameMaps maps;  ///< figures: of all frames
+  ReadoutRun run;  ///< seconds: total of all frames
+  FrameMaps maps;  ///< figures: over all frames
   int frames = 1;
   bool precision_reached = true;
 };
 
-/// A frame of a scene, from its photons to distances, errors and figures, whatever engine reads them. At
-/// once: tables() and measure(). Step by step, for whoever shows how far a frame is or keeps something from
-/// frame to frame: read(), all columns or some, then positions() or judge().
+/// Takes a frame of a scene from photons to distances, errors and figures, with any engine.
+///
+/// In one go: tables() and measure(). In steps, to show progress or keep data from frame to frame: read() for
+/// all or some columns, then positions() or judge().
 class FramePipeline {
  public:
   struct Settings {
     Region region;
     Fidelity fidelity = Fidelity::kExact;
-    std::uint64_t seed = 1;  ///< of the look-up tables' photons; that of the scene has the scene's
+    std::uint64_t seed = 1;  ///< for the photons of the look-up tables; the scene has its own seed
     int threads = 0;         ///< 0: all processors
-    /// The photons of the frame will be read more than once: they are drawn once and kept, if they fit.
+    /// Keep the photons of the frame in memory, if they fit, because they are read more than once.
     bool keep_photons = true;
-    /// Acquisitions at the frame's start that are dropped, as SETTLE does; read-outs see the others.
+    /// Number of acquisitions dropped at the frame's start, as by the register SETTLE.
     std::uint32_t settle = 0;
   };
 
-  /// The engine must outlive the pipeline. Throws InputError where the photon model lacks something that the
-  /// sensor has, and if no acquisition is left.
+  /// `engine` must outlive the pipeline. Throws InputError if the photon model lacks an effect that the
+  /// sensor has, or if no acquisition is left.
   FramePipeline(PhotonSource scene, const FrameEngine& engine, Settings settings);
 
   [[nodiscard]] const PhotonSource& scene() const { return scene_; }
   [[nodiscard]] const Region& region() const { return settings_.region; }
-  /// What the region's pixels can be judged by.
+  /// True distances of the region's pixels.
   [[nodiscard]] const FrameTruth& truth() const { return truth_; }
 
-  /// The read-outs with their look-up tables by this rule.
+  /// Pairs each read-out with its look-up table by `rule`.
   [[nodiscard]] std::vector<TabledReadout> tables(std::span<const ReadoutParameters> readouts,
                                                   TableRule rule) const;
-  /// Reads the frame; with a precision, further ones of the scene until it is reached. Pixels of a frame
-  /// differ in distance, frames are equals: the interval comes from the spread of the frames' mean squares.
+  /// Reads the frame. With `precision`, reads further frames of the scene until the precision is reached. The
+  /// interval comes from the spread of the frames' mean squares, because pixels of one frame differ in
+  /// distance, whereas frames are equivalent.
   [[nodiscard]] MeasuredFrame measure(const TabledReadout& readout,
                                       const std::optional<FramePrecision>& precision = std::nullopt) const;
 
-  /// Reads these columns of the region, ascending; none named: all. A pool read-out reads whole engines
-  /// (ReadoutParameters::columns_together) for them, so that columns are best asked for engine by engine.
+  /// Reads the given columns of the region (ascending), or all if `columns` is empty. A pool read-out always
+  /// processes whole engines (ReadoutParameters::columns_together), so ask for columns engine by engine.
   [[nodiscard]] ReadoutRun read(const ReadoutParameters& readout, std::vector<int> columns = {}) const;
-  /// Another engine reads the region from the same photons.
+  /// Reads the region from the same photons with another engine.
   [[nodiscard]] ReadoutRun read_by(const FrameEngine& engine, const ReadoutParameters& readout) const;
-  /// The memory that a column's photons have is free again; who reads the column next draws them anew.
+  /// Frees the memory of a column's photons; the next read draws them again.
   void forget_photons(int column) { streams_->forget(column); }
-  /// Places of the region's results on the code axis in bins, less the skew of each pixel's clock, which the
-  /// host knows.
+  /// Positions of the region's results on the code axis, in bins, minus the timing skew of each pixel, which
+  /// the host knows.
   [[nodiscard]] std::vector<double> positions(std::span<const PixelResult> results,
                                               const ReadoutParameters& readout) const;
   /// Distances, errors and figures of the region's results.

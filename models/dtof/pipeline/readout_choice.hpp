@@ -9,13 +9,13 @@
 
 namespace dtof {
 
-/// The parameters of readouts.toml that can be chosen for the read-out and change its results: NP, SLOTS and
-/// its choices.
+/// Names of the parameters that are free for the read-out and change its results: NP, SLOTS and its own
+/// (readouts.toml).
 std::vector<std::string_view> parameter_names(Readout readout);
-/// Throws InputError for a parameter that the read-out does not have.
+/// Value of a parameter. Throws InputError if the read-out does not have it.
 int get_parameter(const ReadoutParameters& parameters, std::string_view name);
-/// Sets one of the parameters that the read-out has. Throws InputError for another name, and for a
-/// WINDOW_CENTRED that is neither 0 nor 1; ReadoutParameters::validate knows the other ranges.
+/// Sets a parameter. Throws InputError if the read-out does not have it, and for a WINDOW_CENTRED other than
+/// 0 and 1. Other ranges are checked by ReadoutParameters::validate.
 void set_parameter(ReadoutParameters& parameters, std::string_view name, int value);
 
 }  // namespace dtof

@@ -7,13 +7,13 @@
 
 namespace dtof {
 
-/// Pixels of the sensor that are read out: these rows of these columns. Frames of a region are row-major:
-/// index = (row - rows.first) * columns.size() + i for the i-th column.
+/// Pixels to read out: `rows` of each of `columns`. Results of a region are row-major: index = (row -
+/// rows.first) * columns.size() + i for the i-th column.
 struct Region {
   std::vector<int> columns;  ///< ascending, each once
   RowRange rows;
 
-  /// Every pixel of a sensor of so many columns and rows.
+  /// All pixels of a sensor with this many columns and rows.
   static Region whole(int columns, int rows);
 };
 

@@ -10,45 +10,45 @@
 
 namespace dtof {
 
-/// What the peak detector knows after a scan.
+/// Result of a peak search over a histogram.
 struct HistogramPeak {
   std::uint32_t bin = 0;    ///< largest count, lowest index on a tie; 0 for an empty histogram
   std::uint32_t count = 0;  ///< count of `bin`
   std::uint32_t sum = 0;    ///< sum of all counts
 };
 
-/// The highest pair of neighbouring bins after a scan, and the pairs on either side of it, each of which has
-/// a bin in common with it. Bins before the first and behind the last one hold nothing.
+/// The highest sum of two neighbouring bins, and the sums of the pairs before and behind, each of which
+/// shares a bin with it. Bins outside the histogram count as 0.
 struct PairPeak {
-  std::uint32_t edge = 1;    ///< upper bin of the pair, at the middle of the pair; lowest on a tie
+  std::uint32_t edge = 1;    ///< upper bin of the pair, so the border between its bins; lowest on a tie
   std::uint32_t before = 0;  ///< sum of the lower bin and the one before it
   std::uint32_t count = 0;   ///< sum of the pair
   std::uint32_t behind = 0;  ///< sum of the upper bin and the one behind it
   std::uint32_t sum = 0;     ///< sum of all counts
 };
 
-/// Height of the peak above the mean of the other bins of a histogram of 2^bin_bits bins, never negative
+/// Height of the peak above the mean of the other bins, never negative, for 2^bin_bits bins
 /// (docs/reference/readouts.md, "Histogram confidence").
 constexpr std::uint16_t histogram_confidence(const HistogramPeak& peak, int bin_bits) {
   const std::uint32_t mean_of_rest = (peak.sum - peak.count) >> static_cast<unsigned>(bin_bits);
   return static_cast<std::uint16_t>(peak.count - std::min(peak.count, mean_of_rest));
 }
 
-/// Where a histogram's bins are: bin b holds the codes from first + (b << shift) on.
+/// Position of a histogram's bins: bin b begins at code first + (b << shift).
 struct HistogramBins {
   std::int32_t first = 0;  ///< may be negative
   int shift = 0;
 };
 
-/// What a histogram does behind its first full bin, which is one at 2^count_width - 1
-/// (docs/reference/readouts.md, "Full counters").
+/// Behaviour after the first full bin, i.e. a count of 2^count_width - 1 (docs/reference/readouts.md, "Full
+/// counters").
 enum class FullBin : std::uint8_t {
-  kFreezes,  ///< nothing more is counted until the next scan
-  kStays,    ///< it stays full, and the other bins count on
+  kFreezes,  ///< all counting stops until the next scan
+  kStays,    ///< the full bin stays full; other bins still count
 };
 
-/// Histogram of counters that never wrap. Scan and clear visit the touched bins only, so that a pass costs
-/// its detections and not its bins.
+/// Histogram of counters that never wrap. Scan and clear visit only bins that were counted, so a pass costs
+/// time by its detections, not its bins.
 class Histogram {
  public:
   /// 2^bin_bits bins (bin_bits 0 .. 16) of count_width bits (1 .. 16).
@@ -66,10 +66,10 @@ class Histogram {
     step_ = count == limit_ ? step_when_full_ : step_;
   }
 
-  /// From here on take_peak copies all counts to `counts` before it clears them; null: it does not.
+  /// From now on, peak searches copy all counts to `counts` before clearing; null: no copy.
   void copy_counts_to(std::vector<std::uint16_t>* counts) { copy_ = counts; }
 
-  /// Finds the peak and clears the histogram behind the scan.
+  /// Finds the peak, then clears the histogram.
   HistogramPeak take_peak() {
     if (copy_ != nullptr) {
       *copy_ = counts_;
@@ -89,7 +89,7 @@ class Histogram {
     return {kIndexMask - (best & kIndexMask), best >> 16U, sum};
   }
 
-  /// Finds the highest pair, at least two bins, and clears the histogram behind the scan.
+  /// Finds the highest pair of bins, then clears the histogram. Needs at least two bins.
   PairPeak take_pair_peak() {
     if (copy_ != nullptr) {
       *copy_ = counts_;
@@ -124,19 +124,19 @@ class Histogram {
   std::size_t touched_count_ = 0;
   std::uint16_t limit_;
   std::uint32_t step_when_full_;
-  std::uint32_t step_ = 1;  // of a detection; 0: frozen
+  std::uint32_t step_ = 1;  // added per detection; 0: frozen
   std::vector<std::uint16_t>* copy_ = nullptr;
 };
 
-/// One pass that keeps timestamps with a given prefix and histograms their next bits: every coarse pass, the
-/// steps of three steps, FiFH's fine pass and PiFH's runs are this.
+/// A pass that keeps timestamps with a given prefix and counts their next bits in a histogram. Used by every
+/// coarse pass, the steps of three steps, FiFH's fine pass and PiFH's runs.
 struct PrefixPass {
-  std::uint32_t end;  ///< the pass takes what remains before this acquisition
+  std::uint32_t end;  ///< the pass ends before this acquisition
   int prefix_shift;   ///< keeps x >> prefix_shift == prefix
   int bin_shift;      ///< bin = low bits of x >> bin_shift
 };
 
-/// Peak of a prefix pass; `prefix << (prefix_shift - bin_shift) + peak.bin` is the longer prefix.
+/// Peak of a prefix pass. extend_prefix gives the longer prefix.
 template <typename Cursor>
 HistogramPeak prefix_peak(const PrefixPass& pass, std::uint32_t prefix, Cursor& row, Histogram& histogram) {
   const auto prefix_shift = static_cast<unsigned>(pass.prefix_shift);
@@ -149,14 +149,14 @@ HistogramPeak prefix_peak(const PrefixPass& pass, std::uint32_t prefix, Cursor& 
   return histogram.take_peak();
 }
 
-/// The prefix after a prefix pass: longer by the peak's bits.
+/// Prefix after a prefix pass: `prefix` followed by the bits of the peak's bin.
 constexpr std::uint32_t extend_prefix(const PrefixPass& pass, std::uint32_t prefix,
                                       const HistogramPeak& peak) {
   return (prefix << static_cast<unsigned>(pass.prefix_shift - pass.bin_shift)) + peak.bin;
 }
 
-/// Peak of a pass that keeps first <= x < first + 2^bin_bits in bin x - first. `first` may be negative and
-/// the window may pass the last code; it does not wrap.
+/// Peak of a pass that counts timestamps first <= x < first + 2^bin_bits in bin x - first. `first` may be
+/// negative and the window may extend beyond the last code; it does not wrap.
 template <typename Cursor>
 HistogramPeak window_peak(std::uint32_t end, std::int32_t first, int bin_bits, Cursor& row,
                           Histogram& histogram) {

@@ -24,31 +24,31 @@ class ReadoutModel {
   ReadoutModel& operator=(ReadoutModel&&) = delete;
   virtual ~ReadoutModel() = default;
 
-  /// Reads out one column's frame of `acquisitions`; one result per row.
+  /// Reads out one column's frame of `acquisitions`. Returns one result per row. Throws InputError for a
+  /// malformed stream.
   [[nodiscard]] virtual std::vector<PixelResult> run_column(const ColumnStream& column,
                                                             std::uint32_t acquisitions) = 0;
-  /// Reads out `count` neighbouring columns of equally many rows from left to right, whose pixels may hear
-  /// each other; index: column, row. Throws InputError for different numbers of rows.
+  /// Reads out `count` neighbouring columns from left to right; in pool read-outs their pixels depend on each
+  /// other. Returns results [column][row]. Throws InputError if the columns differ in the number of rows.
   [[nodiscard]] virtual std::vector<std::vector<PixelResult>> run_columns(int count,
                                                                           const ColumnReader& column,
                                                                           std::uint32_t acquisitions);
-  /// The same for columns that are all there.
+  /// Same, for columns that are already in memory.
   [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(std::span<const ColumnStream> columns,
                                                                   std::uint32_t acquisitions);
-  /// Reads out the column from what `sampler` draws, which must be of the same NP; one result per row, as
-  /// many as `results` holds.
+  /// Reads out a column from photons drawn by `sampler`, which must have the same NP. Fills one result per
+  /// row, results.size() rows.
   virtual void run_sampled_column(PixelSampler& sampler, int column, std::uint32_t acquisitions,
                                   std::span<PixelResult> results) = 0;
-  /// What a raw frame shows of the column: of each row the bins of the histogram that the read-out holds at
-  /// the frame's end (the last one it built), as many as raw_bins() of its parameters. A bin is its lowest
-  /// code, limited to 0 .. 2^NP - 1 where a window begins or ends beyond the range, and its count as the
-  /// confidence. Throws InputError for a read-out
+  /// Contents of a raw frame for the column: for each row, the bins of the last histogram that the read-out
+  /// built, raw_bins() in number. A bin appears as a result: code is its lowest code, limited to 0 .. 2^NP -
+  /// 1 if the window extends beyond the range; confidence is its count. Throws InputError for a read-out
   /// without such a histogram.
   [[nodiscard]] virtual std::vector<std::vector<PixelResult>> run_raw_column(const ColumnStream& column,
                                                                              std::uint32_t acquisitions);
 };
 
-/// Throws InputError for illegal parameters.
+/// Makes the model of a read-out. Throws InputError for illegal parameters.
 std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parameters);
 
 }  // namespace dtof

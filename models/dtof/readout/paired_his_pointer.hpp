@@ -8,10 +8,9 @@
 
 namespace dtof {
 
-/// hisPointer (v2) whose coarse peak is the largest sum of two adjacent bins, lowest pair on a tie: the
-/// pointer starts, and its window is centred, at the border between the two. A pulse that falls on a border
-/// is no longer split, which makes it the strongest rival of hisPointer's cost. `parameters` are
-/// hisPointer's; throws InputError for illegal ones.
+/// Makes a variant of hisPointer (v2) whose coarse peak is the largest sum of two adjacent bins (lowest pair
+/// on a tie). The pointer starts at the border between the two bins, and its window is centred there. A pulse
+/// on a bin border is thus not split. Throws InputError unless `parameters` are legal for hisPointer.
 std::unique_ptr<ReadoutModel> make_paired_his_pointer(const ReadoutParameters& parameters);
 
 }  // namespace dtof

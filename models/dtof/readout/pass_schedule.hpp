@@ -12,7 +12,7 @@
 
 namespace dtof {
 
-/// Acquisitions [begin, end) of a frame.
+/// The acquisitions [begin, end) of a frame.
 struct AcquisitionRange {
   std::uint32_t begin;
   std::uint32_t end;
@@ -21,9 +21,9 @@ struct AcquisitionRange {
   bool operator==(const AcquisitionRange&) const = default;
 };
 
-/// Part `index` (0 .. count - 1) of `acquisitions` cut at floor(acquisitions * index / count), as in
-/// docs/reference/readouts.md: measurements are halves, the steps of three steps thirds, PiFH's runs
-/// 2^(NP-NB) parts.
+/// Part `index` (0 .. count - 1) of a frame that is cut at floor(acquisitions * index / count)
+/// (docs/reference/readouts.md). The two measurements are halves, the steps of three steps thirds, PiFH's
+/// runs 2^(NP-NB) parts.
 constexpr AcquisitionRange frame_part(std::uint32_t acquisitions, std::uint32_t index, std::uint32_t count) {
   const auto cut = [=](std::uint64_t position) {
     return static_cast<std::uint32_t>(acquisitions * position / count);
@@ -38,7 +38,7 @@ constexpr AcquisitionRange measurement_2(std::uint32_t acquisitions) {
   return frame_part(acquisitions, 1, 2);
 }
 
-/// Walks one pixel's detections pass by pass, once, dropping the no-detection code.
+/// Walks once through a pixel's detections, pass by pass, and drops the no-detection code.
 class PassCursor {
  public:
   /// `row` is sorted by acquisition; `no_detection` is the all-ones code, 2^NP - 1.
@@ -63,7 +63,7 @@ class PassCursor {
       next_ = next;
       return;
     }
-    // Whether a timestamp is inside is not predictable: picking them out has no branch.
+    // The comparison is unpredictable, so timestamps inside the window are selected without a branch.
     const auto offset = static_cast<std::uint32_t>(lowest);
     const auto width = static_cast<std::uint32_t>(above - lowest);
     std::array<Timestamp, 64> inside;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before read
@@ -89,7 +89,7 @@ class PassCursor {
   std::int32_t no_detection_;
 };
 
-/// The same walk over timestamps that a sampler draws on the way: only those that matter.
+/// Same walk over timestamps that a sampler draws on demand, only inside each pass's window.
 class SampledCursor {
  public:
   SampledCursor(PixelSampler& sampler, std::uint32_t no_detection)
@@ -111,7 +111,7 @@ class SampledCursor {
  private:
   PixelSampler& sampler_;
   std::uint32_t no_detection_;
-  std::uint32_t next_ = 0;  // acquisition
+  std::uint32_t next_ = 0;  // acquisition that the next pass begins with
 };
 
 }  // namespace dtof

@@ -18,9 +18,9 @@ namespace dtof {
 void check_detections(std::span<const Detection> detections, int row, const ReadoutParameters& parameters,
                       std::uint32_t acquisitions);
 
-/// A ReadoutModel around a `Pixel` with `start_frame(acquisitions)` and `read(cursor) -> PixelResult`:
-/// the virtual call is per column, the loop over detections is inlined. One with histograms has
-/// `histogram()`, and `bins()`, which tells where those of the last one are that `read` has built.
+/// ReadoutModel for a `Pixel` class with `start_frame(acquisitions)` and `read(cursor) -> PixelResult`. The
+/// virtual call is per column; the loop over detections is inlined. A Pixel with histograms also has
+/// `histogram()`, and `bins()`, the position of the bins of the last histogram that `read` built.
 template <typename Pixel>
 class PixelwiseModel final : public ReadoutModel {
  public:
@@ -88,10 +88,10 @@ class PixelwiseModel final : public ReadoutModel {
   Pixel pixel_;
 };
 
-/// The read-out's model, without a time gate (model_table.cpp, written from readouts.toml). Throws InputError
-/// for an unknown number.
+/// Makes the read-out's model without its time gate (model_table.cpp, written from readouts.toml). Throws
+/// InputError for an unknown read-out.
 std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parameters);
-/// `model`, and the time gate of `parameters` before it.
+/// Puts the time gate of `parameters` in front of `model`.
 std::unique_ptr<ReadoutModel> make_gated_model(const ReadoutParameters& parameters,
                                                std::unique_ptr<ReadoutModel> model);
 

@@ -12,12 +12,12 @@
 
 namespace dtof {
 
-/// A pointer word in the model: left-aligned in 32 bits, so that the machine's wrap-around is the range's,
-/// and a distance is right or left by its sign.
+/// A pointer word in the model, left-aligned in 32 bits. So integer overflow equals the wrap-around of the
+/// range, and the sign of a distance tells right from left.
 using PointerWord = std::uint32_t;
 
-/// Eq. 3.12: the word after a timestamp at `distance` = (timestamp - word). The opposite point, the most
-/// negative distance, counts as right. Free of branches: the direction is as good as random, and
+/// Eq. 3.12: pointer word after a timestamp at `distance` = timestamp - word. The opposite point (the most
+/// negative distance) counts as right. The function has no branch: the direction is almost random, and
 /// mispredictions would dominate the run time.
 constexpr PointerWord pointer_move(PointerWord word, PointerWord distance, PointerWord step) {
   const auto left = static_cast<PointerWord>(static_cast<std::int32_t>(distance - 1) >> 31);  // 0 or all ones
@@ -25,7 +25,7 @@ constexpr PointerWord pointer_move(PointerWord word, PointerWord distance, Point
   return word + (distance == 0 ? 0 : signed_step);
 }
 
-/// Where a pointer's parameters put bins, steps and fractions in a word.
+/// Layout of a pointer word: bits of bins and of fractions.
 class PointerFormat {
  public:
   constexpr explicit PointerFormat(const ReadoutParameters& parameters)
@@ -33,15 +33,15 @@ class PointerFormat {
         fraction_bits_(static_cast<unsigned>(parameters.fraction_bits)) {}
 
   [[nodiscard]] constexpr unsigned fraction_bits() const { return fraction_bits_; }
-  /// Word of a number of whole bins.
+  /// Pointer word at the beginning of bin `bins`.
   [[nodiscard]] constexpr PointerWord word(std::uint32_t bins) const { return bins << (32 - integer_bits_); }
   [[nodiscard]] constexpr std::uint32_t code(PointerWord word) const { return word >> (32 - integer_bits_); }
-  /// In units of 2^-fraction_bits bin.
+  /// Fraction of a word, in units of 2^-fraction_bits bin.
   [[nodiscard]] constexpr std::uint32_t fraction(PointerWord word) const {
     return (word >> (32 - integer_bits_ - fraction_bits_)) & ((1U << fraction_bits_) - 1);
   }
-  /// True if the top min(5, NP + FRACTION_BITS) bits of `distance` are all 0 or all 1: the timestamp supports
-  /// the pointer.
+  /// True if a timestamp at `distance` supports the pointer: the top min(5, NP + FRACTION_BITS) bits are all
+  /// 0 or all 1.
   [[nodiscard]] constexpr bool near(PointerWord distance) const {
     const PointerWord reach = 1U << (32 - std::min(5U, integer_bits_ + fraction_bits_));
     return distance + reach < 2 * reach;
@@ -52,7 +52,7 @@ class PointerFormat {
   unsigned fraction_bits_;
 };
 
-/// Codes above < x <= up_to, signed, no wrap.
+/// Window of codes above < x <= up_to, signed, without wrap-around.
 struct CodeWindow {
   std::int32_t above;
   std::int32_t up_to;
@@ -67,7 +67,8 @@ class PointerBuilder {
         step_(format_.word(static_cast<std::uint32_t>(parameters.pointer_step))),
         confidence_limit_((1U << static_cast<unsigned>(parameters.confidence_width)) - 1) {}
 
-  /// Fixes the acquisitions that move the pointer; gear g (step >> g) ends where a 2^-(g+1)th is left.
+  /// Sets the acquisitions that move the pointer. Gear g (step >> g) ends when 2^-(g+1) of the measurement is
+  /// left.
   void start_frame(AcquisitionRange measurement) {
     for (unsigned gear = 0; gear <= format_.fraction_bits(); ++gear) {
       const std::uint32_t left = gear == format_.fraction_bits() ? 0 : measurement.size() >> (gear + 1);
@@ -75,7 +76,7 @@ class PointerBuilder {
     }
   }
 
-  /// Starts at code `start` and follows the rest of the row's detections inside `window`.
+  /// Starts at code `start` and moves the pointer by the row's remaining detections inside `window`.
   template <typename Cursor>
   [[nodiscard]] PixelResult follow(Cursor& row, std::uint32_t start, CodeWindow window) const {
     const PointerFormat format = format_;

@@ -9,10 +9,10 @@
 
 namespace dtof {
 
-/// The TEMPLATE registers of poolPointer for what surrounds a sensor (docs/reference/poolpointer.md,
-/// Template), from columns of frames in the dark without a target: three times what a bin's sum over a group
-/// and its neighbours counts there, at most 255 units. Throws InputError for timestamps that
-/// pool_column_events() refuses, or without a pair of rows.
+/// Computes the TEMPLATE registers of poolPointer (docs/reference/poolpointer.md, Template) from columns of
+/// frames without sunlight and target. An entry is three times the counts of a bin's sum over a group and its
+/// neighbours, at most 255 units. Throws InputError for timestamps that pool_column_events() refuses, or if
+/// the columns have no pair of rows.
 PoolTemplate measured_template(std::span<const ColumnStream> columns, std::uint32_t acquisitions,
                                const ReadoutParameters& parameters);
 

@@ -12,17 +12,17 @@
 
 namespace dtof {
 
-/// Reads out a frame with the model on at most `threads` threads (0 = all processors), column by column;
-/// poolPointer engine by engine (ReadoutParameters::columns_together), of which it reads all columns.
+/// Reads out a frame with the model on at most `threads` threads (0 = all processors). poolPointer always
+/// processes all columns of an engine (ReadoutParameters::columns_together).
 ///
-/// `columns` lists the columns to read, in the order of the result; empty means all. The result is
-/// row-major: index = row * n + i for the i-th of n columns read. `progress`, if given, advances by one a
-/// column. Throws InputError for illegal parameters, a column outside the source, or a malformed stream.
+/// `columns` lists the columns of the result, in its order; empty means all. The result is row-major: index =
+/// row * n + i for the i-th of n columns. `progress`, if given, advances by one per column. Throws InputError
+/// for illegal parameters, a column outside `source`, or a malformed stream.
 std::vector<PixelResult> run_frame(const StreamSource& source, const ReadoutParameters& parameters,
                                    int threads = 0, std::span<const int> columns = {},
                                    Progress* progress = nullptr);
 
-/// The same with the source's sampler instead of its streams: faster, other random numbers.
+/// Same, with the source's sampler instead of its streams: faster, but from other random numbers.
 std::vector<PixelResult> run_sampled_frame(const SampledSource& source, const ReadoutParameters& parameters,
                                            int threads = 0, std::span<const int> columns = {},
                                            Progress* progress = nullptr);

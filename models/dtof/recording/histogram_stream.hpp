@@ -17,29 +17,30 @@ struct HistogramCube {
   int rows = 0;
   int bins = 0;
   double bin_width = 0.0;                  ///< s
-  double offset = 0.0;                     ///< s, time of the left edge of bin 0
+  double offset = 0.0;                     ///< time of the left edge of bin 0, s
   std::vector<double> counts = {};         ///< [row][column][bin], rows * columns * bins numbers >= 0
-  std::vector<double> true_distance = {};  ///< m, [row][column], NaN = unknown; empty: none known
-  std::string name = "histograms";         ///< in front of refusals: the file
+  std::vector<double> true_distance = {};  ///< m, [row][column], NaN = unknown; empty: nothing is known
+  std::string name = "histograms";         ///< name of the file, for error messages
 
   [[nodiscard]] std::span<const double> pixel(int column, int row) const {
     const auto index =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
     return std::span(counts).subspan(index * static_cast<std::size_t>(bins), static_cast<std::size_t>(bins));
   }
-  /// Throws InputError when sizes disagree, or a count is negative, not finite or above 2^53.
+  /// Throws InputError if sizes disagree, or a count is negative, not finite or above 2^53.
   void validate() const;
   /// Throws InputError "<name>: <reason>".
   [[noreturn]] void fail(const std::string& reason) const;
-  /// "column 3, row 0, bin 12" of an index of `counts`.
+  /// Text "column 3, row 0, bin 12" for an index of `counts`.
   [[nodiscard]] std::string place(std::size_t index) const;
 };
 
-/// A histogram cube as the stream of one frame (io/resampling.hpp). A photon's time is uniform in its bin.
+/// TDC stream of one frame from a histogram cube (recording/resampling.hpp). A photon's time is uniform
+/// within its bin.
 ///
-/// With a photon budget the photons of a frame are drawn with replacement from the pixel's normalised
-/// histogram, Poisson or fixed in number: many frames can be made from one capture. A pixel without any count
-/// has no photons. Without a budget each count is one photon, and counts must be integers.
+/// With a photon budget, photons are drawn with replacement from the pixel's normalised histogram, Poisson or
+/// fixed in number, so many frames can be made from one capture. A pixel without counts has no photons.
+/// Without a budget each count is one photon, and counts must be integers.
 class HistogramStream : public ResampledStream {
  public:
   /// Throws InputError for an invalid cube or resampling.
@@ -53,9 +54,9 @@ class HistogramStream : public ResampledStream {
   HistogramCube cube_;
 };
 
-/// Cube from an array whose last axis is the bins: [bins], [columns, bins] or [..., rows, columns, bins]
-/// (leading axes are stacked as rows). Widths in s. Throws InputError for a scalar or counts that no cube can
-/// hold.
+/// Makes a cube from an array whose last axis is the bins: [bins], [columns, bins] or [..., rows, columns,
+/// bins] (leading axes are stacked as rows). Widths in s. Throws InputError for a scalar, or for counts that
+/// HistogramCube::validate refuses.
 HistogramCube histogram_cube(const NpyArray& array, double bin_width, double offset = 0.0,
                              const std::string& name = HistogramCube().name);
 

@@ -13,7 +13,7 @@
 
 namespace dtof {
 
-/// Raw photon arrival times of an array of pixels, in ticks of the time-tagging hardware.
+/// Photon arrival times of an array of pixels, in ticks of the time tagger.
 struct PhotonTimes {
   int columns = 0;
   int rows = 0;
@@ -34,32 +34,32 @@ struct MatMatrix {
   std::vector<double> values;  ///< [row][column]
 };
 
-/// Reads a two-dimensional cell array of numeric vectors (one cell a pixel, empty cells allowed) from a
-/// MATLAB file. Throws InputError "<path>: <reason>" when file or variable is missing, damaged or of another
-/// kind.
+/// Reads a two-dimensional cell array of numeric vectors from a MATLAB file, one cell per pixel; cells may be
+/// empty. Throws InputError "<path>: <reason>" if file or variable is missing, damaged or of another kind.
 PhotonTimes read_photon_times_mat(const std::filesystem::path& path,
                                   const std::string& variable = "photon_times");
 
-/// The same of contents that `path` has already given.
+/// Parses contents that were read from `path`, as read_photon_times_mat does.
 PhotonTimes parse_photon_times_mat(const std::filesystem::path& path, std::string_view file,
                                    const std::string& variable = "photon_times");
 
-/// A real numeric variable of any number of axes, in C order, of contents that `path` has already given; at
-/// most 2^27 elements. Throws InputError as above.
+/// Parses a real numeric variable with any number of axes, in C order; at most 2^27 elements. `file` holds
+/// the contents of `path`. Throws InputError as read_photon_times_mat does.
 NpyArray parse_mat_array(const std::filesystem::path& path, std::string_view file,
                          const std::string& variable);
 
-/// Reads a two-dimensional real numeric variable. Throws InputError as above.
+/// Reads a two-dimensional real numeric variable. Throws InputError as read_photon_times_mat does.
 MatMatrix read_mat_matrix(const std::filesystem::path& path, const std::string& variable);
 
-/// Raw photon times as the stream of one frame (io/resampling.hpp): time = tick * tick_duration + time_shift.
+/// TDC stream of one frame from photon times (recording/resampling.hpp). Time = tick * tick_duration +
+/// time_shift.
 ///
-/// With a photon budget below a pixel's photon number the photons are thinned: kPoisson keeps each with the
-/// probability budget / number (binomial, as a weaker laser would), kFixed keeps exactly the budget. A pixel
-/// that has fewer photons than the budget keeps them all.
+/// With a photon budget below a pixel's photon number, photons are thinned. kPoisson keeps each with
+/// probability budget / number (binomial, as with a weaker laser); kFixed keeps exactly the budget. A pixel
+/// with fewer photons than the budget keeps them all.
 class PhotonTimesStream : public ResampledStream {
  public:
-  /// `tick_duration` in s. Throws InputError for an impossible value.
+  /// `tick_duration` in s, > 0. Throws InputError for an illegal value.
   PhotonTimesStream(PhotonTimes photons, double tick_duration, const Resampling& resampling);
 
   [[nodiscard]] const PhotonTimes& photons() const { return photons_; }

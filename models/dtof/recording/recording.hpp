@@ -21,58 +21,60 @@ namespace dtof {
 inline constexpr std::array<std::string_view, 9> kRecordingFormats = {
     "csv", "npy", "npz", "mat", "hdf5", "photon-hdf5", "picoquant", "tmf8820", "tmf8829"};
 
-/// The member of an NPZ archive that says how wide the bins of its histograms are, in ps.
+/// Member of an NPZ archive with the bin width of its histograms, in ps.
 inline constexpr std::string_view kBinWidthName = "bin_width_ps";
 
-/// How a recorded file becomes a stream.
+/// Options for reading a recorded file as a stream.
 struct RecordingOptions {
-  std::string file;             ///< of an archive also "file.h5:/cube" (container/array_address.hpp)
+  std::string file;             ///< path; for an archive also "file.h5:/cube" (container/array_address.hpp)
   std::string format = "auto";  ///< auto (by content, else by name), or one of kRecordingFormats
-  std::optional<double> bin_width_s = std::nullopt;  ///< of histograms in arrays
+  std::optional<double> bin_width_s = std::nullopt;  ///< bin width of histograms in arrays
   double tick_s = 8e-12;                             ///< MAT: duration of a tick
   std::string variable = "photon_times";
   std::optional<std::uint32_t> acquisitions = std::nullopt;
-  std::optional<int> columns = std::nullopt;  ///< CSV: of the sensor; none: the last that detected something
-  std::optional<int> rows = std::nullopt;     ///< CSV: likewise
-  Resampling resampling = {};                 ///< for measured histograms and photon times
+  /// CSV: columns of the sensor; none: up to the last one that detected something.
+  std::optional<int> columns = std::nullopt;
+  /// CSV: rows of the sensor; none: up to the last one that detected something.
+  std::optional<int> rows = std::nullopt;
+  Resampling resampling = {};  ///< for histograms and photon times
 };
 
-/// A file that has been read, once, so that it may be a pipe.
+/// Contents of a file, which is read once, so it may be a pipe.
 struct RecordingFile {
-  /// Unpacked, if it was gzip; empty for hdf5, photon-hdf5 and picoquant, which are read in pieces.
+  /// Contents, unpacked if they were gzip; empty for hdf5, photon-hdf5 and picoquant, which are read piece by
+  /// piece.
   std::string contents;
   std::string format;  ///< one of kRecordingFormats
 };
 
-/// What a file holds, before photons are drawn from it.
+/// Contents of a file, before photons are drawn from them.
 struct RecordedData {
   std::string description;
   std::variant<HistogramCube, PhotonTimes, RecordedStream> data;
 };
 
-/// A recorded frame; distances as the file knows them.
+/// A recorded frame with the true distances that the file holds.
 struct Recording {
   std::string description;
   std::unique_ptr<StreamSource> source;
-  /// True distance in m, index = row * columns + column, NaN = unknown; empty: the file knows none.
+  /// True distance in m, index = row * columns + column, NaN = unknown; empty: the file has none.
   std::vector<double> true_distance;
 };
 
-/// Reads `options.file` and finds its kind: `options.format`, for auto what the content says, else the name.
-/// Throws InputError.
+/// Reads `options.file` and finds its format: `options.format`, or for "auto" the format of the content, else
+/// that of the name. Throws InputError.
 RecordingFile read_recording(const RecordingOptions& options);
 
-/// What a file that has been read holds. Throws InputError that names the file
-/// (and line) and what is wrong with it.
+/// Parses a file's contents. Throws InputError that names the file (and line) and the error.
 RecordedData open_recorded_data(const RecordingOptions& options, const RecordingFile& file);
 
-/// The array in a file of format npy, npz, mat or hdf5, as it stands there. Of an archive without a name in
-/// `options.file` it is "histograms" or "depth_m", as `dtof convert` names them, else the only one. A MATLAB
-/// variable without a name in `options.file` is `options.variable`. Throws InputError.
+/// Reads the array in a file of format npy, npz, mat or hdf5, unchanged. If `options.file` names no array,
+/// the array is "histograms" or "depth_m" (the names that `dtof convert` writes), else the archive's only
+/// one; in a MATLAB file it is `options.variable`. Throws InputError.
 NpyArray open_array(const RecordingOptions& options, const RecordingFile& file);
 
-/// The frame of a file that has been read; its contents are released. Throws InputError that names the file
-/// (and line) and what is wrong with it.
+/// Makes the frame of a file and releases its contents. Throws InputError that names the file (and line) and
+/// the error.
 Recording open_recording(const RecordingOptions& options, RecordingFile file);
 
 }  // namespace dtof

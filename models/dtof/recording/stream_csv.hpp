@@ -14,19 +14,20 @@ namespace dtof {
 /// Header of a recorded stream (spec section 7).
 inline constexpr std::string_view kStreamCsvHeader = "acquisition,column,row,timestamp";
 
-/// What a recorded stream is checked against. Sizes left open are the largest index found plus one.
+/// Sizes against which a recorded stream is checked. A size that is not set becomes the largest index found
+/// plus one.
 struct StreamCsvOptions {
   int np = 10;    ///< timestamps are 0 .. 2^np - 1
-  int slots = 2;  ///< lines of one acquisition, column and row
+  int slots = 2;  ///< most lines per acquisition, column and row
   std::optional<int> columns = std::nullopt;
   std::optional<int> rows = std::nullopt;
   std::optional<std::uint32_t> acquisitions = std::nullopt;
 };
 
-/// A frame held in memory.
+/// A recorded frame, held in memory.
 class RecordedStream : public StreamSource {
  public:
-  /// `columns[c]` has `rows` rows each.
+  /// Each of `columns` must have `rows` rows.
   RecordedStream(std::vector<ColumnStream> columns, int rows, std::uint32_t acquisitions);
 
   [[nodiscard]] int columns() const override { return static_cast<int>(columns_.size()); }
@@ -43,18 +44,18 @@ class RecordedStream : public StreamSource {
   std::uint32_t acquisitions_;
 };
 
-/// Reads a recorded stream, plain or gzip. Lines may stand in any order; slot order is line order within one
-/// acquisition, column and row. LF or CRLF line ends; the last line may lack one. How a line may be written
-/// beside that is parse_integer_csv's (io/csv_fields.hpp); a timestamp of -1 is no event, and its line counts
-/// for the sizes alone. At most 65,536 columns, 65,536 rows and 2^24 pixels. Throws InputError
-/// "<file>:<line>: <reason>" for the first line that breaks the format.
+/// Reads a recorded stream, plain or gzip. Lines may have any order; slots follow the order of lines with the
+/// same acquisition, column and row. Line ends are LF or CRLF, and the last may be missing. The format of a
+/// line is that of parse_integer_csv (io/csv_fields.hpp). A timestamp of -1 is no event; the line counts for
+/// the sizes only. At most 65,536 columns, 65,536 rows and 2^24 pixels. Throws InputError "<file>:<line>:
+/// <reason>" for the first illegal line.
 RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCsvOptions& options);
 
-/// The same of text that `path` has already given.
+/// Parses text that was read from `path`, as read_stream_csv does.
 RecordedStream parse_stream_csv(const std::filesystem::path& path, std::string_view text,
                                 const StreamCsvOptions& options);
 
-/// Writes `source` column by column, row by row; reading it back gives the same stream.
+/// Writes `source` column by column, row by row. read_stream_csv returns the same stream.
 void write_stream_csv(const std::filesystem::path& path, const StreamSource& source);
 
 }  // namespace dtof

@@ -10,20 +10,20 @@
 
 namespace dtof {
 
-/// What the firmware of the TMF8820's makers prints on its serial line while histograms are dumped.
+/// Captures in the serial output of the manufacturer's TMF8820 firmware while it dumps histograms.
 struct Tmf8820Log {
-  std::vector<Tmf8820Capture> captures;  ///< of unknown distance
-  std::size_t incomplete = 0;            ///< captures of which lines are missing, and which are left out
+  std::vector<Tmf8820Capture> captures;  ///< true distances are unknown
+  std::size_t incomplete = 0;            ///< number of captures with missing lines, which are left out
 };
 
-/// Whether a text is such a log: a line of it begins with "#Raw,".
+/// True if some line of the text begins with "#Raw,".
 bool is_tmf8820_log(std::string_view text);
 
-/// Reads a log. A line "#Raw,<address>,<index>" and 128 numbers holds one byte of each bin of a channel:
-/// channel index % 10, of which 0 is the reference and 1 to 9 are the zones, and byte index / 10, the lowest
-/// one first. Index 0 begins a capture of 30 lines; other lines say nothing about histograms. `path` is for
-/// messages. Throws InputError "<path>:<line>: <reason>" for a line of another shape, and for a log without a
-/// whole capture.
+/// Parses a log. A line "#Raw,<address>,<index>" with 128 numbers holds one byte of each bin of one channel.
+/// The channel is index % 10: 0 is the reference, 1 to 9 are the zones. The byte is index / 10, least
+/// significant first. Index 0 begins a capture of 30 lines. Other lines are ignored. `path` is for error
+/// messages. Throws InputError "<path>:<line>: <reason>" for a malformed line, and for a log without a
+/// complete capture.
 Tmf8820Log parse_tmf8820_log(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace dtof

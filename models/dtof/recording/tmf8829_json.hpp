@@ -14,19 +14,20 @@
 
 namespace dtof {
 
-/// Bins of a histogram, in the sensor's 8 x 8 modes and in all others; a reference has as many as the others.
+/// Bins of a histogram: 256 in the sensor's 8 x 8 modes, 64 in all others and in references.
 inline constexpr std::size_t kTmf8829Bins = 64;
 inline constexpr std::size_t kTmf8829FineBins = 256;
-/// s; of a histogram of 64 bins. 122.2 mm per bin, the slope of histogram peaks against on-chip distances in
-/// the published log, whose configuration has `bin_shift` 2 and `histogram_bins` 218: its histograms end in
-/// the middle of bin 54, at 218 / 2^2. So a bin is 2^bin_shift steps of a quarter of this width.
+/// Bin width in s of a histogram with 64 bins. 122.2 mm per bin is the slope of histogram peaks against
+/// on-chip distances in the published log. Its configuration has `bin_shift` 2 and `histogram_bins` 218, and
+/// its histograms end in the middle of bin 54, at 218 / 2^2. So a bin is 2^bin_shift steps of a quarter of
+/// this width.
 inline constexpr double kTmf8829BinWidth = 815e-12;
 inline constexpr std::int64_t kTmf8829BinShift = 2;
 /// Centre of gravity of a histogram peak at distance zero, in bins (bin k counts as k), from the same fit.
 inline constexpr double kTmf8829ZeroDistanceBin = 3.11;
 
-/// A target that the sensor reported. What a log leaves out is not there: the makers' own viewer and client
-/// treat every member so.
+/// A target that the sensor reported. Any member may be missing in a log, as in the manufacturer's own
+/// viewer.
 struct Tmf8829Peak {
   std::optional<double> distance;  ///< m, along the pixel's ray
   std::optional<double> x;         ///< m
@@ -44,9 +45,9 @@ struct Tmf8829Pixel {
 
 /// One frame of an ams TMF8829 log (ams-OSRAM tmf8829_json_logfile_viewer).
 ///
-/// `mp_histo` of the published log repeats one histogram 16 times in each of its 16 lists: list i holds the
-/// histogram of the pixel in row 0, column i (its peaks follow that pixel's reported distance to 27 mm in all
-/// 26 frames, and no other row's or column's). Histograms of rows 1 to 15 are not in it.
+/// `mp_histo` of the published log has 16 lists, each of which repeats one histogram 16 times. List i holds
+/// the histogram of the pixel in row 0, column i: in all 26 frames its peaks agree with that pixel's reported
+/// distance within 27 mm, and with no other row or column. Histograms of rows 1 to 15 are missing.
 struct Tmf8829Frame {
   std::optional<std::int64_t> number;
   int rows = 0;
@@ -54,7 +55,7 @@ struct Tmf8829Frame {
   std::size_t bins = kTmf8829Bins;
   std::vector<Tmf8829Pixel> results;      ///< [row][column]
   std::vector<std::uint32_t> histograms;  ///< [list][entry][bin] as in the file, rows * columns * bins
-  std::vector<std::vector<std::uint32_t>> reference;  ///< 64 bins each; may be none
+  std::vector<std::vector<std::uint32_t>> reference;  ///< 64 bins each; may be empty
 
   [[nodiscard]] const Tmf8829Pixel& result(int row, int column) const {
     return results.at(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -65,26 +66,26 @@ struct Tmf8829Frame {
         static_cast<std::size_t>(list) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(entry);
     return std::span(histograms).subspan(index * bins, bins);
   }
-  /// Every list repeats one histogram, so that only row 0 is known.
+  /// True if every list repeats one histogram, so that only row 0 is known.
   [[nodiscard]] bool only_row_zero() const;
 };
 
 struct Tmf8829Log {
   std::vector<Tmf8829Frame> frames;
-  std::size_t left_out = 0;  ///< frames without results or without histograms, which nothing can be read from
+  std::size_t left_out = 0;  ///< number of frames without results or without histograms, which are skipped
   double bin_width = kTmf8829BinWidth;  ///< s
 };
 
-/// Reads a log, plain or gzip. Throws InputError naming file and member that is wrong.
+/// Reads a log, plain or gzip. Throws InputError that names file and member.
 Tmf8829Log read_tmf8829_json(const std::filesystem::path& path);
 
-/// The same of text that `path` has already given.
+/// Parses text that was read from `path`, as read_tmf8829_json does.
 Tmf8829Log parse_tmf8829_json(const std::filesystem::path& path, std::string_view text);
 
-/// Cube of the histograms that the log holds, with the first on-chip distance of each pixel as
-/// `true_distance` (NaN where the sensor reported none). Frames must agree in size. A log that knows row 0
-/// only: one column a frame, one row a pixel of row 0. Otherwise: the frames' columns side by side, with
-/// their own rows. `name`: the file, for refusals.
+/// Cube of a log's histograms, with the first reported distance of each pixel as `true_distance` (NaN if
+/// none). All frames must have the same size. If only row 0 is known, each frame is a column and each pixel
+/// of row 0 a row. Otherwise the frames' columns are side by side, with their own rows. `name`: the file, for
+/// error messages.
 HistogramCube tmf8829_cube(const Tmf8829Log& log, double offset = 0.0,
                            const std::string& name = HistogramCube().name);
 

@@ -10,7 +10,7 @@
 namespace dtof {
 
 /// Writes the known pixels as a binary little-endian PLY (x, y, z float m; red, green, blue), coloured by
-/// depth over `range`. Throws InputError for what ply_obstacle says.
+/// depth over `range`. Throws InputError if ply_obstacle is not empty.
 void write_ply(const std::filesystem::path& path, const DepthImage& image, const ColourRange& range,
                double degrees_per_pixel = kPixelAngle);
 

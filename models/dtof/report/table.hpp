@@ -8,18 +8,19 @@
 
 namespace dtof {
 
-/// A small table of text cells that is printed as Markdown (aligned, so that it also reads well on a
-/// terminal) and written as CSV.
+/// A table of text cells. It can be printed as Markdown, aligned for reading on a terminal, and written as
+/// CSV.
 class Table {
  public:
-  /// The first `text_columns` hold text, the others figures.
+  /// The first `text_columns` columns hold text, the others figures.
   explicit Table(std::vector<std::string> header, std::size_t text_columns = 1);
-  /// Must have as many cells as the header (std::logic_error).
+  /// Adds a row. Throws std::logic_error unless it has as many cells as the header.
   void add(std::vector<std::string> row);
-  /// Markdown; text is left-aligned, figures right-aligned. Columns too wide for a terminal are not padded.
+  /// The table as Markdown: text left-aligned, figures right-aligned. Columns that are too wide for a
+  /// terminal are not padded.
   [[nodiscard]] std::string markdown() const;
   [[nodiscard]] std::string csv() const;
-  /// The header, then the rows.
+  /// All rows; row 0 is the header.
   [[nodiscard]] const std::vector<std::vector<std::string>>& cells() const { return rows_; }
 
  private:

@@ -6,8 +6,8 @@
 
 namespace dtof {
 
-/// `text` as UTF-8, which pictures need: each byte that is no part of valid UTF-8 becomes the letter that it
-/// is in Latin-1. A file's name may hold any bytes.
+/// Converts `text`, which may hold any bytes (e.g. a file name), to UTF-8. Each byte that is no part of valid
+/// UTF-8 is taken as Latin-1.
 std::string as_utf8(std::string_view text);
 
 }  // namespace dtof

@@ -5,15 +5,15 @@
 
 namespace dtof {
 
-/// How the sensor looks at the room, and what moved in it since.
+/// Direction of the camera, and displacement of the sphere.
 struct RoomView {
   double pan_degrees = 0.0;     ///< about the vertical axis, to the right
   double roll_degrees = 0.0;    ///< about the optical axis
-  double sphere_right_m = 0.0;  ///< how far the sphere has moved
+  double sphere_right_m = 0.0;  ///< displacement of the sphere to the right
 };
 
-/// The `room` scene by ray casting. The array always sees 96 x 76.8 degrees (200 x 160 pixels of AFOV 0.48),
-/// equiangular: column and row turn the ray, whatever the number of pixels.
+/// The `room` scene by ray casting. The field of view is always 96 x 76.8 degrees (200 x 160 pixels of AFOV
+/// 0.48). The projection is equiangular for any number of pixels: column and row turn the ray.
 TargetMap make_room(int columns, int rows, double reflectivity, const RoomView& view = {});
 
 }  // namespace dtof

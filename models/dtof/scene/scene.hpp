@@ -10,7 +10,7 @@
 
 namespace dtof {
 
-/// Scenes that need no file. Depth is the range along a pixel's ray.
+/// Built-in scenes. Depth is the range along a pixel's ray.
 enum class Scene {
   kFlat,       ///< one distance everywhere
   kStaircase,  ///< steps from near (column 0) to far (last column), equally wide and equally high
@@ -29,35 +29,35 @@ inline constexpr std::array<Scene, 9> kAllScenes = {Scene::kFlat,  Scene::kStair
 
 /// Command-line name: flat, staircase, plane, room, planes, clutter, poles, isolated, sky.
 std::string_view scene_name(Scene scene);
-/// One sentence on what the scene shows.
+/// One sentence that describes the scene.
 std::string_view scene_summary(Scene scene);
-/// Throws InputError naming the legal names.
+/// Scene by its command-line name. Throws InputError that lists the known names.
 Scene parse_scene(std::string_view name);
 
 struct SceneParameters {
   int columns = 200;
   int rows = 160;
-  double distance_m = 1.0;    ///< flat
-  double near_m = 0.8;        ///< staircase and plane
-  double far_m = 5.0;         ///< staircase and plane; may be below near_m
+  double distance_m = 1.0;    ///< flat, m
+  double near_m = 0.8;        ///< staircase and plane, m
+  double far_m = 5.0;         ///< staircase and plane, m; may be below near_m
   int steps = 8;              ///< staircase; >= 1
-  double reflectivity = 1.0;  ///< of every surface; in the room of the brightest, to which the others relate
-  std::uint64_t seed = 1;     ///< of the shapes of planes, clutter and poles
+  double reflectivity = 1.0;  ///< of every surface; in the room, of the brightest one
+  std::uint64_t seed = 1;     ///< seed of the shapes of planes, clutter and poles
 };
 
-/// Throws InputError if a parameter that the scene uses is out of range (distances finite and > 0,
-/// reflectivity finite and >= 0).
+/// Throws InputError if a parameter that the scene uses is out of range. Distances must be finite and > 0,
+/// reflectivity finite and >= 0.
 TargetMap make_scene(Scene scene, const SceneParameters& parameters);
 
-/// A depth image of width x height (`metres` row by row, row 0 on top; 0, NaN, infinite: unknown, thus no
-/// target), resampled to the array by nearest neighbour over the whole image.
+/// Makes targets from a depth image of width x height. `metres` is row by row, row 0 on top; values of 0, NaN
+/// and infinity are pixels without target. The whole image is resampled to the array by nearest neighbour.
 /// Throws InputError for a wrong number of values or a negative depth.
 TargetMap scene_from_depth_image(int width, int height, std::span<const float> metres, int columns, int rows,
                                  double reflectivity = 1.0);
 
-/// Gives every target its reflectivity from a map of width x height (`values` row by row, row 0 on top),
-/// resampled to the array by nearest neighbour over the whole map. Throws InputError for a wrong number of
-/// values or one that is not finite and at least 0.
+/// Sets every target's reflectivity from a map of width x height (`values` row by row, row 0 on top),
+/// resampled to the array by nearest neighbour. Throws InputError for a wrong number of values, or a value
+/// that is negative or not finite.
 void set_reflectivity(TargetMap& targets, int width, int height, std::span<const float> values);
 
 }  // namespace dtof

@@ -9,14 +9,15 @@
 
 namespace dtof {
 
-/// What happens in a video of a scene.
+/// Change of a scene over the frames of a video.
 enum class Motion {
-  kStill,   ///< nothing
-  kPan,     ///< the camera turns to the right, `speed` columns per frame; maps come in from the right
-  kRoll,    ///< the camera turns about its axis, `speed` degrees per frame; the room alone
-  kObject,  ///< the sphere moves to the right, `speed` centimetres per frame; the room alone
-  kCut,     ///< in the middle frame the scene becomes its mirror image
-  kLight,   ///< from 2 to 50 klux, by the same factor from frame to frame
+  kStill,  ///< nothing
+  kPan,    ///< the camera turns right by `speed` columns per frame; scenes other than the room scroll in from
+           ///< the right
+  kRoll,   ///< the camera turns about its axis by `speed` degrees per frame; room only
+  kObject,  ///< the sphere moves right by `speed` centimetres per frame; room only
+  kCut,     ///< the scene becomes its mirror image in the middle frame
+  kLight,   ///< light rises from 2 to 50 klux, by the same factor per frame
 };
 
 inline constexpr std::array<Motion, 6> kAllMotions = {Motion::kStill,  Motion::kPan, Motion::kRoll,
@@ -24,12 +25,12 @@ inline constexpr std::array<Motion, 6> kAllMotions = {Motion::kStill,  Motion::k
 
 /// Command-line name: still, pan, roll, object, cut, light.
 std::string_view motion_name(Motion motion);
-/// One sentence on what happens.
+/// One sentence that describes the motion.
 std::string_view motion_summary(Motion motion);
-/// Throws InputError naming the legal names.
+/// Motion by its command-line name. Throws InputError that lists the known names.
 Motion parse_motion(std::string_view name);
 
-/// Whether there is a video of this scene with this motion.
+/// True if this scene can have this motion.
 bool has_motion(Scene scene, Motion motion);
 
 struct Sequence {
@@ -37,11 +38,11 @@ struct Sequence {
   SceneParameters parameters;
   Motion motion = Motion::kStill;
   int frames = 16;     ///< at least 2
-  double speed = 2.0;  ///< above 0; whole columns where a map that is no room pans
-  double klux = 14.0;  ///< unless the light changes
+  double speed = 2.0;  ///< above 0; a whole number of columns if a scene other than the room pans
+  double klux = 14.0;  ///< constant light, unless the motion is kLight
 };
 
-/// The frame in which a cut shows the other scene first.
+/// Number of the first frame after a cut.
 int cut_frame(const Sequence& sequence);
 
 struct SequenceFrame {
@@ -49,8 +50,8 @@ struct SequenceFrame {
   double klux = 0.0;
 };
 
-/// The `frame`-th, from 0. Throws InputError for numbers out of range and for a motion that the scene has
-/// not.
+/// Frame number `frame`, from 0. Throws InputError for numbers out of range, or if the scene cannot have the
+/// motion.
 SequenceFrame sequence_frame(const Sequence& sequence, int frame);
 
 }  // namespace dtof

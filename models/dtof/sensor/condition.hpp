@@ -9,17 +9,17 @@
 
 namespace dtof {
 
-/// A named part of a sensor file that can be laid over any sensor (sensor/conditions.toml, compiled into the
+/// A named part of a sensor file that can be added to any sensor (sensor/conditions.toml, compiled into the
 /// program).
 struct Condition {
   std::string name;
-  std::string says;  ///< one sentence without its full stop
+  std::string says;  ///< one sentence without its full stop, for help texts
 };
 
-/// In the file's order.
+/// All conditions, in the order of the file.
 const std::vector<Condition>& conditions();
-/// The sensor under this condition, named "<sensor>-<condition>". Throws InputError that names the known
-/// ones.
+/// The sensor with this condition added, named "<sensor>-<condition>". Throws InputError that lists the known
+/// conditions.
 SensorModel under_condition(const SensorModel& sensor, std::string_view condition);
 
 }  // namespace dtof

@@ -9,8 +9,8 @@ namespace dtof {
 /// CELL_SHIFT of the pool read-outs for a pulse of this FWHM: 8 below 0.75 coarse bins, 10 from 2.25, else 9.
 int pool_cell_shift(double fwhm_coarse_bins);
 
-/// ReadoutParameters::defaults with the sensor's NP and SLOTS, and what follows its pulse: hisPointer's
-/// GUARD, ceil(FWHM / T_res), and the pool read-outs' CELL_SHIFT.
+/// ReadoutParameters::defaults, adapted to the sensor: NP and SLOTS, hisPointer's GUARD = ceil(FWHM / T_res),
+/// and the pool read-outs' CELL_SHIFT.
 ReadoutParameters default_parameters(Readout readout, const SensorModel& sensor);
 
 }  // namespace dtof

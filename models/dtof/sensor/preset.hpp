@@ -9,25 +9,25 @@
 
 namespace dtof {
 
-/// Names of the sensor files that are compiled into the program (sensor/presets/): thesis, thesis_1mhz,
-/// thesis_full, phone.
+/// Names of the sensor files that are compiled into the program (sensor/presets/), e.g. "thesis".
 std::vector<std::string_view> preset_names();
-/// Throws InputError that names the known presets.
+/// Sensor of a preset. Throws InputError that lists the known presets.
 SensorModel parse_preset(std::string_view name);
 
-/// What --sensor takes: a preset's name, or else the path of a sensor file; behind it any conditions
-/// (sensor/condition.hpp), each after a "+": thesis+fog+motion. Throws InputError.
+/// Sensor for the option --sensor: a preset's name, or else the path of a sensor file. Conditions
+/// (sensor/condition.hpp) may follow, each after a "+": thesis+fog+motion. Throws InputError for an unknown
+/// name or an illegal file.
 SensorModel find_sensor(std::string_view name_or_file);
 
-/// A sensor and the file that describes it, which has been read once.
+/// A sensor and the text of its file, which is read once.
 struct DescribedSensor {
   std::string text;
   SensorModel model;
 };
 
-/// The same with its text.
+/// As find_sensor, with the text of the sensor's file.
 DescribedSensor find_described_sensor(std::string_view name_or_file);
-/// The text of that file, after it has been checked. Throws InputError.
+/// Text of a preset's file. Throws InputError that lists the known presets.
 std::string_view preset_text(std::string_view name);
 
 }  // namespace dtof

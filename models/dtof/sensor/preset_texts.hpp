@@ -6,13 +6,13 @@
 
 namespace dtof {
 
-/// A file of sensor/presets/, compiled into the program so that it runs from anywhere.
+/// A file of sensor/presets/, compiled into the program so that it runs from any folder.
 struct PresetText {
-  std::string_view name;  ///< the file's, without .toml
+  std::string_view name;  ///< file name without .toml
   std::string_view toml;
 };
 const std::vector<PresetText>& preset_texts();
-/// The file sensor/conditions.toml.
+/// Text of sensor/conditions.toml.
 std::string_view conditions_text();
 
 }  // namespace dtof

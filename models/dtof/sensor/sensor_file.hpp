@@ -9,16 +9,18 @@
 
 namespace dtof {
 
-/// Reads a sensor file (TOML, docs/user/sensor_file.md). What the file does not name is off or has the
-/// default of sensor_key_table(); the name defaults to the file's. Files that it names are looked for beside
-/// it. Throws InputError "<path>:<line>: <reason>" for text that is no TOML, a key that is not known (with
-/// the nearest known one), a value of a wrong type or outside its limits, and a key that is missing.
+/// Reads a sensor file (TOML, docs/user/sensor_file.md). A missing key gets the default of
+/// sensor_key_table(); a missing effect is off. The name defaults to the file's name. Files that it names are
+/// searched in its folder. Throws InputError "<path>:<line>: <reason>" for text that is no TOML, an unknown
+/// key (with the nearest known one), a value of a wrong type or outside its limits, and a missing required
+/// key.
 SensorModel read_sensor_file(const std::filesystem::path& path);
 
-/// The same of a text; `path` is for messages and for the files that the text names.
+/// Parses the text of a sensor file. `path` is for error messages, and its folder is searched for the files
+/// that the text names.
 SensorModel parse_sensor(std::string_view toml, const std::filesystem::path& path);
 
-/// `sensor` with what a part of a sensor file says instead; keys that the text does not name stay.
+/// Copy of `sensor`, changed by part of a sensor file; keys that `toml` does not name keep their values.
 SensorModel change_sensor(const SensorModel& sensor, std::string_view toml,
                           const std::filesystem::path& path);
 

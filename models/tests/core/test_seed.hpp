@@ -15,7 +15,7 @@ inline std::uint64_t test_seed() {
   return text == nullptr ? kDefaultTestSeed : std::stoull(text);
 }
 
-/// For SCOPED_TRACE: how to repeat the run.
+/// For SCOPED_TRACE: the setting that repeats the run.
 inline std::string test_seed_message() { return "DTOF_TEST_SEED=" + std::to_string(test_seed()); }
 
 }  // namespace dtof

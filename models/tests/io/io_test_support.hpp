@@ -19,7 +19,7 @@
 
 namespace dtof::test {
 
-/// A directory of its own for each test, removed afterwards.
+/// Gives each test a directory of its own, removed afterwards.
 class IoTest : public ::testing::Test {
  public:
   IoTest(const IoTest&) = delete;
@@ -48,7 +48,7 @@ class IoTest : public ::testing::Test {
     return path(name);
   }
 
-  /// A pipe that gives these bytes (fewer than a pipe holds) once.
+  /// A pipe that delivers these bytes once; they must fit into a pipe.
   [[nodiscard]] std::filesystem::path pipe_of(std::string_view bytes) {
     std::array<int, 2> ends{};
     EXPECT_EQ(::pipe(ends.data()), 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What surrounds a sensor against closed forms or sums of the test's own. Seeds are fixed (DTOF_TEST_SEED
-// changes them); a right model fails one test in a million (kErrorRate).
+// Effects of a sensor's surroundings compared with closed forms or sums of the test. Seeds are fixed
+// (DTOF_TEST_SEED changes them); a correct model fails one test in a million (kErrorRate).
 #pragma once
 
 #include <gmock/gmock.h>
@@ -49,7 +49,7 @@ class SurroundingsTest : public ::testing::Test {
     return {sensor_, TargetMap(kColumns, kRows, {.depth_m = depth_m, .reflectivity = 1.0}), klux,
             test_seed()};
   }
-  /// Only the events of what the test is about.
+  /// Removes all events except those under test.
   void make_dark() {
     sensor_.dark_count_rate_hz = 0.0;
     sensor_.background_events_per_klux = 0.0;
@@ -94,7 +94,8 @@ class SurroundingsTest : public ::testing::Test {
     }
     return sum;
   }
-  /// p-value of the times being Gaussian around `centre` of their acquisition: half a bin is drawn anew.
+  /// p-value for Gaussian times around `centre` of their acquisition; each time is drawn uniformly within its
+  /// bin.
   template <typename Centre>
   [[nodiscard]] double gaussian_p(const std::vector<Detection>& all, const Centre& centre) const {
     CounterRandom random(test_seed(), static_cast<std::uint32_t>(RandomPurpose::kTestControl), 5, 7);

@@ -14,7 +14,7 @@
 
 namespace dtof {
 
-/// Streams of one pixel that are hard on a read-out.
+/// Streams of one pixel that are difficult for a read-out.
 enum class StreamKind : int {
   kUniform,       ///< any code, any number of slots filled
   kSameInSlots,   ///< all slots of an acquisition hold the same code

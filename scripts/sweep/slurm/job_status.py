@@ -14,7 +14,7 @@ RUNNING = {"PENDING", "RUNNING", "COMPLETING", "CONFIGURING", "SUSPENDED", "REQU
 
 
 def status(answer: str, error: str = "") -> str:
-    """The status that `scontrol --oneliner show job` tells on its two outputs."""
+    """Status from the two outputs of `scontrol --oneliner show job`."""
     states = [word.removeprefix("JobState=") for word in answer.split() if word.startswith("JobState=")]
     if not states:
         return "failed" if FORGOTTEN in error else "running"

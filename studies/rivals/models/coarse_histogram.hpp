@@ -8,7 +8,7 @@
 namespace dtof {
 
 /// A histogram of 2^bin_bits bins over the whole range for the whole frame, matched on the host (BinMatcher).
-/// No part of the frame is spent on finding the peak, and no window is placed: the pulse is wider than a bin,
+/// No part of the frame is spent on finding the peak, and no window is placed.
 ///
 /// On the chip: bin x >> (NP - bin_bits) += 1, saturating at 2^count_bits - 1.
 struct CoarseHistogramChoice {

@@ -7,17 +7,16 @@
 
 namespace dtof {
 
-/// A window of few bins around the last frame's depth (Edinburgh's guided dToF; FoveaSPAD, arXiv 2412.02052):
-/// eight bins, whose window the host sets for each pixel before each frame. The result is that of the third
-/// frame of a scene that does not move, and stays wrong where the first frame was:
+/// A window of eight bins around the last frame's depth, set by the host for each pixel before each frame
+/// (Edinburgh's guided dToF; FoveaSPAD, arXiv 2412.02052). The result is that of the third frame of a static
+/// scene; it stays wrong if the first frame was wrong:
 ///
-///  1. bins of a 2^(NP-3), the whole range: the highest bin, the lowest of a tie;
-///  2. bins of 2^(NP-5) around that bin's middle;
-///  3. bins of 2^(NP-6) around what the host matched (BinMatcher) in the second frame.
+///  1. Bins of 2^(NP-3) codes over the whole range: the highest bin, the lowest on a tie.
+///  2. Bins of 2^(NP-5) codes around the middle of that bin.
+///  3. Bins of 2^(NP-6) codes around the host's match (BinMatcher) of the second frame.
 ///
-/// Windows are moved into the range. On the chip: for begin <= x < begin + 8 bins, bin (x - begin) / width +=
-/// 1, saturating at 2^count_bits - 1. The window's begin is a word of NP bits, and the first one that is
-/// read.
+/// Windows are shifted into the range. On the chip: for begin <= x < begin + 8 bins, bin (x - begin) / width
+/// += 1, saturating at 2^count_bits - 1. The begin of the window is a word of NP bits, the first word read.
 struct GuidedWindowChoice {
   int count_bits = 10;  ///< 1 .. 16; sunlight fills 8 bits of the widest bins
 };

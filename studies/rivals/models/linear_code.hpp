@@ -10,25 +10,24 @@
 
 namespace dtof {
 
-/// What a counter at its limit does to its pixel.
+/// Effect of a counter at its limit on its pixel.
 enum class FullCounter {
-  kStays,  ///< it alone stays at its limit
-  /// The detection that would carry a counter over its limit is not counted, nor is any after it in this
-  /// frame: the counters keep their proportion. The pixel has a bit for that.
+  kStays,  ///< this counter stays at its limit; others count on
+  /// The detection that would exceed a limit is not counted, and neither are later ones of this frame. So the
+  /// counters keep their proportion. The pixel stores a bit for this state.
   kFreezes,
 };
 
-/// A pixel of counters that add a number of a code table each for every detection, y[k] += C[k][x], and a
-/// host that correlates (CodeMatcher). Compressive histograms (Gutierrez-Barragan et al., CVPR 2022),
-/// sketches (Sheehan, Tachella and Davies, arXiv 2102.08732) and the spline sketch (arXiv 2210.07314) are
-/// such codes.
+/// A pixel whose counters add numbers of a code table for every detection, y[k] += C[k][x], and a host that
+/// correlates (CodeMatcher). Examples are compressive histograms (Gutierrez-Barragan et al., CVPR 2022),
+/// sketches (Sheehan, Tachella and Davies, arXiv 2102.08732) and the spline sketch (arXiv 2210.07314).
 struct LinearCode {
   std::size_t counters;
-  std::vector<std::int16_t> weights;  ///< weights[x * counters + k] is C[k][x], x of 0 .. 2^NP - 1
-  int count_bits;                     ///< of a counter, 2 .. 24, its sign included
+  std::vector<std::int16_t> weights;  ///< weights[x * counters + k] is C[k][x], x = 0 .. 2^NP - 1
+  int count_bits;                     ///< width of a counter, 2 .. 24, sign included
   bool is_signed;  ///< limits -2^(count_bits - 1) + 1 and 2^(count_bits - 1) - 1, else 0 and 2^count_bits - 1
   FullCounter full = FullCounter::kFreezes;
-  int table_bits = 0;  ///< of the table that a column needs; 0: the numbers follow from the timestamp's bits
+  int table_bits = 0;  ///< bits of the table in each column; 0: the numbers follow from the timestamp's bits
 };
 std::unique_ptr<Rival> make_linear_code(const SensorModel& sensor, LinearCode code);
 
@@ -42,38 +41,38 @@ struct CodeWave {
 
 /// Truncated Fourier code of K counters: cosine and sine of the harmonics 1 .. K/2.
 std::vector<CodeWave> truncated_fourier(int counters);
-/// Gray-Fourier code of K counters: cosine and sine of the harmonics 1, 2, 4, .. as far as the pulse does not
-/// blur them (below `largest_harmonic`), then of the lowest not yet used.
+/// Gray-Fourier code of K counters: cosine and sine of the harmonics 1, 2, 4, .. below `largest_harmonic`,
+/// which the pulse does not blur; then of the lowest unused harmonics.
 std::vector<CodeWave> gray_fourier(int counters, int largest_harmonic);
 /// The harmonic whose period is four standard deviations of the pulse.
 int largest_harmonic(const SensorModel& sensor);
 
-/// The waves in numbers of `bits` bits, sign included: 1 bit is the sign (+1 or -1), more are rounded to
+/// The waves as numbers of `bits` bits, sign included. 1 bit is the sign (+1 or -1); more bits are rounded to
 /// -(2^(bits-1) - 1) .. 2^(bits-1) - 1.
 std::vector<std::int16_t> wave_weights(int np, std::span<const CodeWave> waves, int bits);
 
-/// Fourier codes of either kind. A counter has 10 bits for a code of one bit, and one more for each further
+/// Fourier codes of either kind. With one bit per number a counter has 10 bits, and one more for each further
 /// bit.
 std::unique_ptr<Rival> make_fourier(const SensorModel& sensor, std::span<const CodeWave> waves, int bits);
 
-/// Sketch of size M: the truncated Fourier code with K = 2M as exactly as its authors' hardware has it,
-/// numbers of 8 bits and counters that no frame fills.
+/// Sketch of size M: the truncated Fourier code with K = 2M, with the precision of its authors' hardware:
+/// numbers of 8 bits, and counters that no frame fills.
 std::unique_ptr<Rival> make_sketch(const SensorModel& sensor, int size);
 
-/// Linear spline sketch on a circle: with x = (i + f) 2^NP / knots, 1 - f is added to counter i and f to the
+/// Linear spline sketch on a circle. With x = (i + f) 2^NP / knots, 1 - f is added to counter i and f to the
 /// next one, both in quarters.
 std::unique_ptr<Rival> make_spline_sketch(const SensorModel& sensor, int knots, int count_bits);
 std::vector<std::int16_t> spline_weights(int np, int knots);
 
-/// Correlation-assisted dToF (Kuijk, Sensors 2025, 25(21) 6772): the moving averages of two triangular waves,
-/// a quarter of the range apart, at the detections. In numbers: with a wave w[k] of -7 .. 7
+/// Correlation-assisted dToF (Kuijk, Sensors 2025, 25(21) 6772): moving averages, over the detections, of two
+/// triangular waves a quarter of the range apart. In integers, with a wave w[k] of -7 .. 7:
 ///
 ///     v[k] += w[k][x] - ((v[k] + d) >> shift)
 ///
-/// so that v is 2^shift times the average over about that many detections. d is the acquisition's number with
-/// its lowest `shift` bits in reverse order, which all pixels share: over many detections exactly v / 2^shift
-/// leaks away. With a constant in its place, averages below one half of the wave's unit would never leak, and
-/// larger ones would stand on whole units: centimetres of error. Words of 4 + shift bits, `shift` of 1 .. 24.
+/// So v is 2^shift times the average over about 2^shift detections. d is the acquisition's number with its
+/// lowest `shift` bits in reverse order, equal in all pixels. With this dither exactly v / 2^shift is
+/// subtracted on average. A constant d would leave averages below half a unit unchanged and quantise larger
+/// ones: centimetres of error. Words have 4 + shift bits, with `shift` 1 .. 24.
 std::unique_ptr<Rival> make_two_correlations(const SensorModel& sensor, int shift);
 
 }  // namespace dtof

@@ -7,16 +7,15 @@
 
 namespace dtof {
 
-/// What a host knows of the laser: the share of the pulse's events in each code, if the pulse's mean lies in
-/// the middle of one. Jitter is in it; pile-up and unequal codes are not.
+/// The pulse as the host knows it: share of its events in each code if its mean is in the middle of a code.
+/// Includes jitter, but neither pile-up nor unequal codes.
 class PulseShape {
  public:
   explicit PulseShape(const SensorModel& sensor);
 
-  /// Offsets -reach() .. reach() hold all of the pulse but for 1e-9 of it.
+  /// Offsets -reach() .. reach() hold all of the pulse except 1e-9.
   [[nodiscard]] int reach() const { return reach_; }
-  /// Share of the pulse in the code `offset` codes behind the code that has the pulse's mean; 0 beyond the
-  /// reach.
+  /// Share of the pulse in the code `offset` codes after the code with the pulse's mean; 0 beyond the reach.
   [[nodiscard]] double share(int offset) const;
   /// Standard deviation in codes.
   [[nodiscard]] double sigma() const { return sigma_; }

@@ -8,27 +8,27 @@
 
 namespace dtof {
 
-/// A pixel of the large array mixes the distances of these: the 3 x 3 spots around the nearest one, row by
-/// row; beyond the border, those of the border again.
+/// Number of candidates whose distances a pixel of the large array mixes: the 3 x 3 spots around the nearest
+/// one, row by row. Beyond the border, the border's spots are repeated.
 inline constexpr int kCandidates = 9;
 /// Features of a pixel:
-///  0 .. 8    logarithm of each candidate's distance less that of the candidates' median, times 5, at most 2
-///            in size
-///  9 .. 17   each candidate's confidence as the share of the small array's pixels that have less
-///  18 .. 26  how like the pixel's each candidate's brightness is: exp(-(difference / 0.05)^2 / 2)
-///  27        the pixel's brightness
-///  28, 29    how far right and below the nearest spot the pixel is, in the spots' mean spacing
-///  30        the spots' mean spacing in pixels, divided by 4
+///  - 0 .. 8: logarithm of each candidate's distance relative to the candidates' median, times 5, limited to
+///    -2 .. 2;
+///  - 9 .. 17: each candidate's confidence, as the share of the small array's pixels with less confidence;
+///  - 18 .. 26: similarity of each candidate's brightness to the pixel's: exp(-(difference / 0.05)^2 / 2);
+///  - 27: the pixel's brightness;
+///  - 28, 29: offset of the pixel to the right of and below the nearest spot, in the spots' mean spacing;
+///  - 30: the spots' mean spacing in pixels, divided by 4.
 inline constexpr int kFeatures = 3 * kCandidates + 4;
 
-/// What the learned enlarger sees of a map, pixel by pixel of the large array.
+/// Input of the learned enlarger, for each pixel of the large array.
 struct EnlargerInput {
   int columns = 0;
   int rows = 0;
   std::vector<float> features;    ///< [feature][row][column]
   std::vector<float> candidates;  ///< distances in m, [candidate][row][column]
-  /// Logarithm of the weight that a joint bilateral filter of widths 0.35 and 0.06 would give each candidate,
-  /// but for brightness at least -6: the network adds its own judgement to it. The same size.
+  /// Logarithm of the weight that a joint bilateral filter of widths 0.35 and 0.06 gives each candidate, at
+  /// least -6 for the part by brightness. The network adds its own score. [candidate][row][column].
   std::vector<float> prior;
 
   [[nodiscard]] std::size_t pixels() const {
@@ -36,7 +36,7 @@ struct EnlargerInput {
   }
 };
 
-/// Throws InputError for sizes that do not fit together.
+/// Throws InputError for sizes that do not match.
 EnlargerInput make_enlarger_input(const SmallMap& map, const IntensityImage& image);
 
 }  // namespace dtof

@@ -10,7 +10,7 @@
 
 namespace dtof {
 
-/// 3 x 3 convolution; beyond the border are zeros.
+/// 3 x 3 convolution with zeros beyond the border.
 struct Convolution {
   int inputs = 0;
   int outputs = 0;
@@ -18,34 +18,35 @@ struct Convolution {
   std::vector<float> biases;   ///< [output]
 };
 
-/// A small convolutional network looks at each pixel's features (enlarger_input.hpp). What it says of a
-/// candidate is added to the logarithm of that one's weight in a joint bilateral filter; the weights, at
-/// least 0 and together 1, follow from the sums; the pixel's distance is their weighted mean. It can thus
+/// A small convolutional network on each pixel's features (enlarger_input.hpp). Its output for a candidate is
+/// added to the logarithm of that candidate's weight in a joint bilateral filter. The softmax of the sums
+/// gives weights of at least 0 with sum 1; the pixel's distance is the weighted mean. So the network can
 /// choose a side of an edge, but not invent a distance.
 struct EnlargerWeights {
-  JointBilateral joint_bilateral;   ///< chosen on the same training maps
-  std::vector<Convolution> layers;  ///< max(0, x) between them; the last one has an output a candidate
+  JointBilateral joint_bilateral;  ///< chosen on the same training maps
+  /// Max(0, x) follows each layer but the last, which has one output per candidate.
+  std::vector<Convolution> layers;
 };
 
-/// Text: a line "dtof-enlarger 1", "joint_bilateral SPATIAL RANGE", then of each layer "convolution INPUTS
-/// OUTPUTS", its biases and its weights; lines that begin with # are comments. Throws InputError with `name`
-/// and line for anything else, also for layers that do not fit together.
+/// Parses a text: a line "dtof-enlarger 1", a line "joint_bilateral SPATIAL RANGE", then for each layer
+/// "convolution INPUTS OUTPUTS", its biases and its weights. Lines that begin with # are comments. Throws
+/// InputError with `name` and line for anything else, also for layers that do not fit together.
 EnlargerWeights parse_enlarger_weights(std::string_view text, std::string_view name);
-/// The same with numbers of five digits; `comment` may have several lines.
+/// Writes such a text with numbers of five digits; `comment` may have several lines.
 std::string write_enlarger_weights(const EnlargerWeights& weights, std::string_view comment);
 
-/// Those of enlarge/weights.txt, which `make train-enlarger` found.
+/// Weights in studies/small_arrays/models/weights.txt, a result of `make train-enlarger`.
 EnlargerWeights trained_weights();
-/// Its text, compiled in.
+/// Text of these weights, compiled into the program.
 std::string trained_weights_text();
 
-/// The last layer's outputs and the prior, [candidate][row][column]: logarithms of the weights but for a
-/// constant.
+/// Logarithms of the candidates' weights up to a constant: the last layer's outputs plus the prior,
+/// [candidate][row][column].
 std::vector<float> enlarger_scores(const EnlargerWeights& weights, const EnlargerInput& input);
-/// The distances that the scores mix, m.
+/// Distances that result from mixing the candidates by the scores, m.
 std::vector<double> mix_candidates(const EnlargerInput& input, const std::vector<float>& scores);
 
-/// As the enlargers of enlarger.hpp.
+/// Enlarges a map with the network, with the interface of enlarger.hpp.
 std::vector<double> enlarge_learned(const SmallMap& map, const IntensityImage& image,
                                     const EnlargerWeights& weights);
 

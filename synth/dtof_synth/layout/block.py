@@ -22,7 +22,7 @@ CLOCK = "clk_i"
 
 @dataclass(frozen=True)
 class Cell:
-    """A library cell; `pins` are nets by pin."""
+    """A library cell. `pins`: net of each pin."""
 
     name: str
     kind: str
@@ -32,7 +32,7 @@ class Cell:
 
 @dataclass
 class Block:
-    """`ports`: direction by net. A net has one port at most, and every port has a pin of a cell."""
+    """A flat block. `ports`: direction by net. A net has at most one port, and every port connects to a cell's pin."""
 
     name: str
     cells: list[Cell]
@@ -48,7 +48,7 @@ class Block:
         return [net for net, direction in self.ports.items() if direction == "output"]
 
     def sinks(self, library: Library) -> Counter[str]:
-        """Pins of cells and of the edge that every net drives."""
+        """For every net, the number of cell pins and edge pins that it drives."""
         return Counter([*(net for cell in self.cells for pin, net in cell.pins.items()
                           if pin in library.input_ff[cell.kind]), *self.outputs])
 
@@ -61,7 +61,7 @@ def _bits(name: str, bits: list) -> list[tuple[str, int | str]]:
 
 
 def from_module(name: str, module: dict, library: Library, macros: set[str]) -> Block:
-    """A mapped module in Yosys's JSON; `macros` are the SRAMs' types."""
+    """Block of a mapped module in Yosys's JSON. `macros`: cell types of the SRAMs."""
     rams = {cell: item for cell, item in sorted(module["cells"].items()) if item["type"] in macros}
     cells = {cell: item for cell, item in sorted(module["cells"].items()) if item["type"] not in macros}
     foreign = {item["type"] for item in cells.values()} - set(library.area)
@@ -77,7 +77,7 @@ def from_module(name: str, module: dict, library: Library, macros: set[str]) -> 
     sram_ports: list[str] = []
 
     def add(port: str, bit: int | str, own: list[str] | None = None) -> None:
-        """A port, if a cell is at its net and no other port has the net."""
+        """Adds a port if its net connects to a cell and has no other port."""
         if isinstance(bit, int) and bit in used and bit not in names:
             names[bit] = port
             ports[port] = "output" if bit in driven else "input"
@@ -115,7 +115,7 @@ def blif(block: Block) -> str:
 
 
 def verilog(block: Block) -> str:
-    """For OpenSTA: constants as literals, no supplies."""
+    """Verilog for OpenSTA: constants as literals, no supplies."""
     literal = {"vdd": "1'b1", "gnd": "1'b0"}
     nets = sorted({net for cell in block.cells for net in cell.pins.values()} - set(block.ports) - set(SUPPLIES))
     lines = ["// Generated from the mapped netlist.", f"module {block.name} ({', '.join(block.ports)});"]
@@ -128,14 +128,14 @@ def verilog(block: Block) -> str:
 
 
 def pin_orders(extracted: str) -> dict[str, list[str]]:
-    """Pins of every cell in the order of its subcircuit, which Netgen goes by where a cell is empty."""
+    """Pins of every cell in the order of its subcircuit, which Netgen uses for empty cells."""
     return {line.split()[1]: line.split()[2:]
             for line in re.findall(r"^\.subckt .*$", extracted, re.IGNORECASE | re.MULTILINE)}
 
 
 def spice(block: Block, orders: dict[str, list[str]]) -> str:
-    """The netlist that the layout is compared with: from the mapped netlist, not from anything placement wrote. The
-    cells are empty, since the layout knows them as abstracts, too."""
+    """Netlist with which the layout is compared. It is made from the mapped netlist, not from any output of placement. Cells are empty,
+    since the layout has them as abstracts, too."""
     kinds = {cell.kind: {*cell.pins, *SUPPLIES} for cell in block.cells}
     strange = sorted(kind for kind, pins in kinds.items() if set(orders.get(kind, ())) != pins)
     if strange:
@@ -151,7 +151,7 @@ def spice(block: Block, orders: dict[str, list[str]]) -> str:
 
 
 def pin_sides(block: Block) -> str:
-    """graywolf's hints for its pins: the SRAM's on the lower edge, where the SRAM would be, the others on the upper."""
+    """graywolf's hints for the block's pins: those of the SRAM on the lower edge, where the SRAM would be, the others on the upper edge."""
     others = [port for port in block.ports if port not in set(block.sram_ports)]
     lines = []
     for side, (name, ports) in zip("BT", (("sram", block.sram_ports), ("column", others))):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`make layout`: the columns of several read-outs, and the report."""
+"""`make layout`: lays out the columns of several read-outs and writes the report."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ def _say(text: str) -> None:
 
 
 def _generic_areas() -> dict[str, float]:
-    """um2 of a column's logic in the generated library, from `make synth`."""
+    """Area of a column's logic in the generated library, um2, from `make synth`."""
     with (ROOT / "reports" / "area.csv").open(newline="", encoding="utf-8") as file:
         return {row["configuration"]: float(row["column_um2"]) for row in csv.DictReader(file)}
 
 
 def _key(item: Configuration, technologies: Technology, cells: Cells, generic_area: float) -> str:
-    """Hash of all that a layout depends on; a report that is worded anew needs no new layouts."""
+    """Hash of all inputs of a layout. The wording of the report is no input, so a new wording needs no new layouts."""
     folder = Path(__file__).resolve().parent
     said_only = {folder / name for name in ("command.py", "picture.py", "report.py")}
     digest = hashlib.sha256(f"{input_digest(technologies)} {item.rtl_parameters()} {generic_area}".encode())
@@ -49,7 +49,7 @@ def _key(item: Configuration, technologies: Technology, cells: Cells, generic_ar
 
 
 def _work(item: Configuration, technologies: Technology, cells: Cells, generic_area: float) -> Result:
-    """The layout of one configuration, or what is kept of it if nothing has changed."""
+    """The layout of one configuration; reused if no input has changed."""
     key = _key(item, technologies, cells, generic_area)
     kept = BUILD / item.name / "result.pickle"
     try:
@@ -64,7 +64,7 @@ def _work(item: Configuration, technologies: Technology, cells: Cells, generic_a
 
 
 def _slacks(named: dict[str, Configuration], found: dict[str, Result], jobs: int) -> dict[str, report.Slacks]:
-    """The arrays of `make synth`, timed with the wire-load model and with what their columns' wires measure here."""
+    """Slacks of the arrays of `make synth` with the wire-load model, and with the wire lengths of these layouts."""
     prepared = technology.prepare(ROOT, SYNTH / "generic40", all_configurations(named))
     arrays = batch.run_all([batch.Job(named[name]) for name in found], prepared, SYNTH / "runs", jobs, _say)
     slacks = {}

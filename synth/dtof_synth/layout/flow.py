@@ -31,8 +31,8 @@ PAIR = "dtof_pool_pair"
 
 @dataclass
 class Result:
-    """Figures of one layout. Lengths in um, areas in um2, capacitances in fF, times in ns; `area_shrink` is the ratio of lengths
-    between the generated library and this one, by the area of their cells."""
+    """Figures of one layout. Lengths in um, areas in um2, capacitances in fF, times in ns. `area_shrink`: ratio of lengths between the
+    generated library and this one, by the area of their cells."""
 
     title: str
     block: str
@@ -79,9 +79,8 @@ def columns(configuration: Configuration) -> int:
 
 
 def synthesise(configuration: Configuration, technology: Technology, folder: Path) -> Block:
-    """The column alone, mapped by the flow's own steps; of a pool read-out a pair of columns, for the router takes too long for
-    all that share an SRAM. The array around it, which is elaborated with it, is small: a column does not depend on how many
-    there are."""
+    """Maps the column alone with the flow's own steps. In pool read-outs the block is a pair of columns, because routing all columns of an
+    SRAM takes too long. The array around the block is small: a column does not depend on the number of columns."""
     run.elaborate(small(configuration, ARRAY_COLUMNS), technology, folder, (PAIR,) if configuration.is_pool else ())
     library = technology.slow
     scripts = technology.root / "synth" / "yosys"
@@ -115,7 +114,7 @@ def synthesise(configuration: Configuration, technology: Technology, folder: Pat
 
 def _place_and_route(folder: Path, block: Block, cells: Cells, density: float | None,
                      seconds: dict[str, float]) -> tuple[Project, int, list[str]]:
-    """The first placement of which every net is routed, its seed and the nets that are not."""
+    """First placement in which every net is routed: project, seed, and the unrouted nets."""
     for seed in SEEDS:
         shutil.rmtree(folder, ignore_errors=True)
         project = Project(folder, block, cells, seed, density)
@@ -129,8 +128,8 @@ def _place_and_route(folder: Path, block: Block, cells: Cells, density: float | 
 
 
 def _checked(project: Project, root: Path) -> tuple[int, int, str]:
-    """Design rules and comparison hold, or FlowError: how many lone vias were mended, how many errors are left, Netgen's
-    verdict."""
+    """Checks design rules and netlist comparison, FlowError if they fail. Returns the numbers of mended lone vias and of remaining errors,
+    and Netgen's verdict."""
     mended = 0
     found = project.check(root)
     for _ in range(REPAIRS):
@@ -154,7 +153,7 @@ def _checked(project: Project, root: Path) -> tuple[int, int, str]:
 
 
 def _times(project: Project, technology: Technology, layout: Layout, ff: dict[str, float]) -> list[Arrivals]:
-    """Without wires, with the wire-load model, with the layout's wires."""
+    """Arrival times without wires, with the wire-load model, and with the layout's wires."""
     block, library, folder = project.block, technology.typical, project.folder
     signals = wires.signal_nets(block)
     per_um = sum(ff[net] for net in signals if net in ff) / sum(layout.length(net) for net in signals)
@@ -176,8 +175,8 @@ def _times(project: Project, technology: Technology, layout: Layout, ff: dict[st
 
 def lay_out(configuration: Configuration, technology: Technology, cells: Cells, generic_area: float, folder: Path,
             say: Callable[[str], None]) -> Result:
-    """The whole flow of one configuration; FlowError in one sentence at the first step that is not clean. `generic_area`: of
-    the same column in the generated library."""
+    """Lays out one configuration. FlowError with one sentence at the first step that fails. `generic_area`: area of the same column in the
+    generated library."""
     seconds: dict[str, float] = {}
     library = technology.slow
     with processor_seconds(seconds, "synthesis"):

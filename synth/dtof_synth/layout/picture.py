@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Layouts side by side in one picture, to scale: cells, wires by layer, the edge's pins; by gnuplot."""
+"""Picture of several layouts side by side, to scale: cells, wires by layer, pins of the edge. Drawn by gnuplot."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SRAM_PIN, OTHER_PIN = "#d00000", "#000000"
 
 @dataclass(frozen=True)
 class Drawn:
-    """A layout with what the picture says of it."""
+    """A layout and its caption."""
 
     title: str
     layout: Layout

@@ -24,7 +24,7 @@ _PIN = re.compile(r"^- (\S+) \+ NET (\S+)\n(.*\n)  \+ PLACED \( (-?\d+) (-?\d+) 
 
 
 def _slots(left: int, right: int, stripes: list[int], wanted: int) -> list[int]:
-    """Tracks for pins, every second if there are enough of them."""
+    """Tracks for pins; every second one if there are enough."""
     for step in (2 * TRACK, TRACK):
         first = -(-left // step) * step + step
         free = [x for x in range(first, right - step, step) if all(abs(x - stripe) > STRIPE for stripe in stripes)]
@@ -34,7 +34,7 @@ def _slots(left: int, right: int, stripes: list[int], wanted: int) -> list[int]:
 
 
 def spread(wanted: list[tuple[float, str]], slots: list[int]) -> dict[str, int]:
-    """A slot for each pin, in the order of the places that they want, near them."""
+    """A slot for each pin near the position that it wants; the order of the positions is kept."""
     found = {}
     lowest = 0
     for index, (place, pin) in enumerate(sorted(wanted)):

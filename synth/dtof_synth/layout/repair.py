@@ -20,7 +20,7 @@ _ENDS_IN_VIA = re.compile(rf"(?<= metal2 )((?:\( \S+ \S+ \) )+){VIA}(?= *(?:;)?\
 
 
 def _points(path: str) -> list[tuple[str, str]]:
-    """Those of a path of a DEF; there a star stands for the coordinate of the point before."""
+    """Points of a path in a DEF, where a star stands for the previous point's coordinate."""
     found: list[tuple[str, str]] = []
     for x, y in re.findall(r"\( (\S+) (\S+) \)", path):
         found.append((x if x != "*" else found[-1][0], y if y != "*" else found[-1][1]))
@@ -28,7 +28,7 @@ def _points(path: str) -> list[tuple[str, str]]:
 
 
 def mend_lone_vias(definition: str, boxes: dict[str, list[tuple[float, ...]]]) -> tuple[str, int]:
-    """The DEF with other vias at the pads that Magic reports, and how many are others."""
+    """The DEF with vias replaced at the pads that Magic reports, and the number of replaced vias."""
     mended = 0
     for rule, places in boxes.items():
         for left, low, right, high in sorted(set(places)) if rule.startswith(RULE) else ():

@@ -23,8 +23,8 @@ COLUMNS = ["title", "block", "columns", "cells", "flip_flops", "cell_um2", "die_
 
 @dataclass(frozen=True)
 class Slacks:
-    """Setup slacks of the array at 40 nm in the slow corner, ns, without and with margins: with the wire-load model's length per
-    sink, and with the layout's, scaled by cell area."""
+    """Setup slacks of the array at 40 nm in the slow corner, ns, without and with margins, for two wire lengths per sink: the wire-load
+    model's, and the layout's, scaled by cell area."""
 
     model: float
     model_with_margins: float

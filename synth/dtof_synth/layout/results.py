@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the layout tools wrote, read and judged. A tool that says nothing has failed, whatever its exit status."""
+"""Reads and judges the output of the layout tools. A tool without output has failed, whatever its exit status."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Point = tuple[float, float]
 
 
 def failed_nets(log: str) -> list[str]:
-    """Nets that qrouter could not route, from the whole log; the last count is what counts."""
+    """Nets that qrouter could not route, from the whole log. The last count in the log is valid."""
     last = re.findall(r"^Final: (No failed routes!|Failed net routes: \d+)", log, re.MULTILINE)
     if not last:
         raise FlowError("the router did not come to its end")
@@ -27,14 +27,14 @@ def failed_nets(log: str) -> list[str]:
 
 @dataclass(frozen=True)
 class Violations:
-    """Design rule errors: how many, the boxes of each rule in the layout's micrometres."""
+    """Design rule errors: their number, and the boxes of each rule in the layout's micrometres."""
 
     total: int
     boxes: dict[str, list[tuple[float, ...]]]
 
 
 def violations(output: str) -> Violations:
-    """What Magic's script (magic.tcl) printed; boxes are in tenths of a micrometre, lambda."""
+    """Design rule errors in the output of magic.tcl, whose boxes are in tenths of a micrometre (lambda)."""
     total = re.findall(r"^DTOF_DRC (\d+)$", output, re.MULTILINE)
     if not total or "DTOF_MAGIC_OK" not in output:
         raise FlowError("Magic did not come to the end of its script")
@@ -48,7 +48,7 @@ UNIQUE = "Circuits match uniquely."
 
 
 def lvs_verdict(output: str) -> str:
-    """Netgen's last result; only UNIQUE is a match."""
+    """Netgen's last verdict; only UNIQUE is a match."""
     verdicts = re.findall(r"^Result: (.*)$", output, re.MULTILINE)
     if not verdicts:
         raise FlowError("Netgen came to no result")
@@ -57,7 +57,7 @@ def lvs_verdict(output: str) -> str:
 
 @dataclass
 class Wire:
-    """A piece of a net: layer and its corners in um."""
+    """A piece of a net: its layer and corners in um."""
 
     layer: str
     points: list[Point]
@@ -69,7 +69,7 @@ class Wire:
 
 @dataclass
 class Layout:
-    """A routed DEF in um: the die, places of the cells, places of the pins, wires by net."""
+    """A routed DEF in um: die, positions of cells and pins, wires by net."""
 
     die: tuple[float, float, float, float]
     cells: dict[str, tuple[str, float, float]]
@@ -102,7 +102,8 @@ def _wires(text: str, scale: float) -> Iterator[Wire]:
 
 
 def read_def(text: str) -> Layout:
-    """Special nets hold the supplies and, of signals, the router's widened stubs inside pins, whose length is not counted."""
+    """Reads a routed DEF. Special nets hold the supplies and, for signals, the router's widened stubs inside pins, whose length is not
+    counted."""
     units = re.search(r"^UNITS DISTANCE MICRONS (\d+) ;$", text, re.MULTILINE)
     die = re.search(r"^DIEAREA \( (\S+) (\S+) \) \( (\S+) (\S+) \) ;$", text, re.MULTILINE)
     components = re.findall(r"^- (\S+) (\S+) \+ PLACED \( (\S+) (\S+) \)", _section(text, "COMPONENTS"), re.MULTILINE)
@@ -121,7 +122,7 @@ def read_def(text: str) -> Layout:
 
 @dataclass
 class Branch:
-    """A piece of a net with its resistance in ohm; `pins` are `cell/pin` or a port at its end."""
+    """A piece of a net with its resistance in ohm. `pins`: `cell/pin` or a port at its end."""
 
     ohm: float
     weight: float
@@ -131,7 +132,7 @@ class Branch:
 
 @dataclass
 class Tree:
-    """A net as the router wrote it: the driving pin and the branches from there."""
+    """A net as the router wrote it: the driving pin and the branches from it."""
 
     driver: str
     branches: list[Branch]
@@ -142,8 +143,8 @@ sys.setrecursionlimit(100_000)
 
 
 def read_trees(text: str) -> dict[str, Tree]:
-    """qrouter's file of nested resistances and capacitances (`net 1 driver sinks (R C end , end)`). A net whose pieces form a
-    loop makes the router lose its way, which it says by a pin ERROR; such a net is left out."""
+    """Reads qrouter's file of nested resistances and capacitances (`net 1 driver sinks (R C end , end)`). For a net whose pieces form a
+    loop the router writes a pin ERROR; such a net is left out."""
     trees = {}
     for number, line in enumerate(text.splitlines(), 1):
         words = line.replace("PIN/", "").split()
@@ -163,7 +164,7 @@ class _Ends:
         self.at = 0
 
     def read(self) -> Branch:
-        """Ends up to a closing bracket or the end of the line."""
+        """Reads branches up to a closing bracket or the end of the line."""
         found = Branch(0.0, 0.0)
         while self.at < len(self.words) and self.words[self.at] != ")":
             word = self.words[self.at]
@@ -183,7 +184,7 @@ class _Ends:
 
 @dataclass(frozen=True)
 class Arrivals:
-    """Longest path, ns, and the mean of the longest path to every end."""
+    """Longest path, and mean of the longest paths to all ends, ns."""
 
     longest: float
     mean: float
@@ -191,7 +192,7 @@ class Arrivals:
 
 
 def arrivals(output: str, label: str, period: float) -> Arrivals:
-    """From OpenSTA's slacks of all ends under one label (layout.tcl)."""
+    """Arrival times from OpenSTA's slacks of all ends under one label (layout.tcl)."""
     section = output.split(f"{label}\n", 1)[1].split("DTOF_", 1)[0] if f"{label}\n" in output else ""
     slacks = [(float(slack), end) for end, slack in re.findall(r"^(\S+) .* (-?\d+\.\d+) \((?:MET|VIOLATED)\)$", section,
                                                                        re.MULTILINE)]

@@ -23,7 +23,7 @@ STEPS = ("synthesis", "placement", "routing", "checks", "timing")
 
 @dataclass(frozen=True)
 class Cells:
-    """The files of Debian's qflow-tech-osu018: cells as Liberty and LEF, no transistors as layout."""
+    """Files of Debian's qflow-tech-osu018: cells as Liberty and LEF, without transistor layouts."""
 
     folder: Path = Path("/usr/share/qflow/tech/osu018")
     name: str = "osu018"
@@ -37,7 +37,7 @@ class Cells:
 
 @contextmanager
 def processor_seconds(seconds: dict[str, float], step: str) -> Iterator[None]:
-    """Adds what the processes started inside have used: what other jobs take of the machine does not count."""
+    """Adds the processor time of the processes started inside; time of other jobs on the machine is not counted."""
     def used() -> float:
         usage = resource.getrusage(resource.RUSAGE_CHILDREN)
         return usage.ru_utime + usage.ru_stime
@@ -58,8 +58,8 @@ def _run(command: list[str], folder: Path, log: Path, **environment: str) -> str
 
 
 class Project:
-    """A folder as qflow's scripts expect it. `seed` is graywolf's; `density`: share of the rows that cells fill, the rest being
-    fillers; None: as dense as graywolf places."""
+    """A folder for qflow's scripts. `seed`: graywolf's seed. `density`: share of the rows that cells fill, the rest being fillers; None:
+    graywolf's own density."""
 
     def __init__(self, folder: Path, block: Block, cells: Cells, seed: int, density: float | None = None) -> None:
         self.folder, self.block, self.cells = folder, block, cells
@@ -83,7 +83,7 @@ class Project:
         (self.folder / name).write_text(text, encoding="utf-8")
 
     def path(self, end: str) -> Path:
-        """A file of the layout folder by what follows the block's name."""
+        """File in the layout folder: the block's name followed by `end`."""
         return self.layout / f"{self.block.name}{end}"
 
     def _script(self, script: str, *options: str) -> str:
@@ -99,13 +99,13 @@ class Project:
         unrouted.write_text(pins.arrange(unrouted.read_text(encoding="utf-8"), self.block), encoding="utf-8")
 
     def route(self) -> list[str]:
-        """Nets that failed."""
+        """Routes the block; returns the nets that failed."""
         self._script("router.sh")
         log = self.folder / "log" / "route.log"
         return results.failed_nets(log.read_text(encoding="utf-8") if log.is_file() else "")
 
     def check(self, root: Path) -> results.Violations:
-        """Magic: extracted netlist, GDS, design rules."""
+        """Runs Magic: writes the extracted netlist and GDS, and checks design rules."""
         for end in (".spice", ".gds"):
             self.path(end).unlink(missing_ok=True)
         (self.layout / ".magicrc").write_bytes(self.cells.file(".magicrc").read_bytes())
@@ -118,7 +118,7 @@ class Project:
         return found
 
     def compare(self) -> str:
-        """Netgen: the extracted netlist with the mapped one; its verdict."""
+        """Compares the extracted netlist with the mapped one by Netgen; returns the verdict."""
         orders = blocks.pin_orders(self.path(".spice").read_text(encoding="utf-8"))
         reference = self.layout / "reference.spice"
         reference.write_text(blocks.spice(self.block, orders), encoding="utf-8")

@@ -22,12 +22,12 @@ MODEL = "scaled"
 
 
 def scaled_um() -> float:
-    """The wire a sink that the flow's wire-load model has, in this technology."""
+    """Wire length per sink of the flow's wire-load model, scaled to this technology, um."""
     return WIRE_UM_PER_FANOUT * NODE_NM / REFERENCE_NM
 
 
 def layer_ff_per_um(lef: str) -> dict[str, float]:
-    """fF of a micrometre of every routing layer at its width, from a technology LEF."""
+    """Capacitance of every routing layer at its width, fF per um, from a technology LEF."""
     found = {}
     for name, body in re.findall(r"^LAYER (\S+)(.*?)^END \1", lef, re.DOTALL | re.MULTILINE):
         values = [re.search(rf"^\s*{key}\s+([\d.eE+-]+)", body, re.MULTILINE)
@@ -45,12 +45,12 @@ def net_ff(layout: Layout, per_um: dict[str, float]) -> dict[str, float]:
 
 
 def signal_nets(block: Block) -> set[str]:
-    """Nets that the wire-load model speaks of: the clock's wires belong to its tree."""
+    """Nets that the wire-load model describes: all signals except the clock, whose wires belong to its tree."""
     return {net for cell in block.cells for net in cell.pins.values()} - {CLOCK, *SUPPLIES}
 
 
 def wire_load_liberty(ff_per_um: float) -> str:
-    """A library of nothing but the wire-load model, with this technology's capacitance."""
+    """A Liberty with nothing but the wire-load model, with this technology's capacitance."""
     library = Group("library", ["wires"], [
         ("delay_model", "table_lookup"), ("time_unit", '"1ns"'), ("voltage_unit", '"1V"'), ("current_unit", '"1uA"'),
         ("pulling_resistance_unit", '"1kohm"'), ("capacitive_load_unit", ["1", "pf"]), ("nom_voltage", "1.8"),
@@ -71,7 +71,7 @@ def _ohm(branches: list[Branch]) -> float:
 
 def _undescribed(block: Block, drivers: dict[str, str], capacitance: dict[str, float], described: set[str],
                  ohm_per_ff: float) -> dict[str, Tree]:
-    """Stand-ins for the trees of routed nets between cells that are not `described`."""
+    """Substitutes for the trees of routed nets between cells that are not `described`."""
     pins: dict[str, list[str]] = {}
     for cell in block.cells:
         for pin, net in cell.pins.items():
@@ -86,8 +86,8 @@ def _undescribed(block: Block, drivers: dict[str, str], capacitance: dict[str, f
 
 
 def spef(block: Block, library: Library, trees: dict[str, Tree], capacitance: dict[str, float]) -> str:
-    """The wires of all signal nets. One that the router does not describe has all of its pins at the end of a wire with its
-    capacitance, of as many ohm per fF as the wires of the others have."""
+    """SPEF of the wires of all signal nets. A net that the router does not describe has all its pins at the end of one wire with the net's
+    capacitance; its resistance per fF is that of the other nets."""
     lines = ['*SPEF "IEEE 1481-1998"', f'*DESIGN "{block.name}"', '*DATE "none"', '*VENDOR "none"', '*PROGRAM "none"',
              '*VERSION "none"', '*DESIGN_FLOW "none"', "*DIVIDER /", "*DELIMITER :", "*BUS_DELIMITER []", "*T_UNIT 1 NS",
              "*C_UNIT 1 FF", "*R_UNIT 1 OHM", "*L_UNIT 1 HENRY", ""]

@@ -10,7 +10,7 @@ class VerilatedContext;
 
 namespace dtof {
 
-/// The Verilated demonstrator, of RTL or of a netlist.
+/// The Verilated demonstrator, from RTL or from a netlist.
 class DemonstratorModel {
  public:
   DemonstratorModel() = default;
@@ -22,9 +22,9 @@ class DemonstratorModel {
 
   [[nodiscard]] virtual Readout readout() const = 0;
   [[nodiscard]] virtual int columns() const = 0;
-  /// One clock with this level at the serial input; returns that of the serial output.
+  /// Runs one clock with level `rx` at the serial input; returns the level of the serial output.
   [[nodiscard]] virtual bool clock(bool rx) = 0;
-  /// The light, which changes with every frame.
+  /// Level of the light output, which changes with every frame.
   [[nodiscard]] virtual bool light() const = 0;
 };
 

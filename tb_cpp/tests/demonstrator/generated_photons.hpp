@@ -8,14 +8,14 @@
 
 namespace dtof {
 
-/// What photon_generator.sv makes, written from its header: the same events in the same order.
+/// Software model of photon_generator.sv, written from its header comment: the same events in the same order.
 class GeneratedPhotons {
  public:
   GeneratedPhotons(int np, int columns, int rows);
 
   /// Codes of the targets, row by row.
   [[nodiscard]] std::vector<int>& targets() { return targets_; }
-  /// The next acquisitions, numbered from 0, of each column.
+  /// Events of each column in the next acquisitions, which are numbered from 0.
   [[nodiscard]] std::vector<ColumnStream> acquire(std::uint32_t acquisitions);
 
  private:

@@ -17,7 +17,7 @@
 
 namespace dtof {
 
-/// What the tests of the pool read-outs' RTL let their columns see.
+// Scenes of the columns in tests of the pool read-outs' RTL.
 
 template <typename Condition>
 std::vector<RtlConfiguration> configurations_with(const Condition& condition) {
@@ -26,7 +26,7 @@ std::vector<RtlConfiguration> configurations_with(const Condition& condition) {
   return chosen;
 }
 
-// What a column looks at.
+// Scene of a column.
 enum class View : std::uint8_t {
   kFlat,         // one depth
   kSlope,        // up to a coarse bin from pixel to pixel
@@ -49,8 +49,7 @@ inline std::string_view view_name(View view) {
   return kNames[static_cast<std::size_t>(view)];
 }
 
-// A column of surfaces in light of random strength: photons in the order of their arrival, those beyond SLOTS
-// lost.
+// A column of surfaces in light of random strength: photons in order of arrival; those beyond SLOTS are lost.
 class Surfaces {
  public:
   Surfaces(const RtlConfiguration& configuration, std::uint32_t acquisitions, CounterRandom& random)

@@ -25,12 +25,12 @@
 
 namespace dtof {
 
-/// GoogleTest's name of a configuration in failure messages.
+/// Prints a configuration in GoogleTest's failure messages.
 inline void PrintTo(const RtlConfiguration& configuration, std::ostream* stream) {
   *stream << configuration.to_string();
 }
 
-/// Letters and digits of a text, for a test's name.
+/// Letters and digits of a text, as the name of a test.
 inline std::string test_name(std::string_view text) {
   std::string name(text);
   std::erase_if(name, [](char c) { return c == '='; });
@@ -47,7 +47,7 @@ inline std::string readout_test_name(const testing::TestParamInfo<Readout>& read
   return test_name(readout_name(readout.param));
 }
 
-/// Those of dtof_array. pool_pointer_test has dtof_pool_pointer_array's.
+/// Read-outs of dtof_array. Those of dtof_pool_pointer_array are in pool_pointer_test.
 inline std::vector<Readout> array_readouts() {
   std::vector<Readout> readouts;
   std::ranges::remove_copy_if(kRtlReadouts, std::back_inserter(readouts), is_pool_readout);
@@ -66,16 +66,18 @@ inline std::vector<Readout> full_size_readouts() {
   return readouts;
 }
 
-/// Command that repeats the running test and leaves a waveform of its last frame: a mismatch ends the test. The array has to record
-/// waveforms, as the tests' small arrays do in a build with DTOF_TEST_WAVEFORMS=ON.
+/// Command that repeats the running test and writes a waveform of its last frame. A mismatch ends a test, so
+/// this is the failing frame. The array has to record waveforms, as the tests' small arrays do in a build
+/// with DTOF_TEST_WAVEFORMS=ON.
 inline std::string reproduce_command() {
   const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
   return test_seed_message() + " DTOF_TRACE=trace.fst " +
          std::filesystem::read_symlink("/proc/self/exe").string() + " --gtest_filter='" +
-         info->test_suite_name() + "." + info->name() + "' (for waveforms: cmake -D DTOF_TEST_WAVEFORMS=ON build/cpp)";
+         info->test_suite_name() + "." + info->name() +
+         "' (for waveforms: cmake -D DTOF_TEST_WAVEFORMS=ON build/cpp)";
 }
 
-/// The scoreboard's verdict on a frame, for ASSERT_TRUE.
+/// Compares a frame with the model by the scoreboard, for ASSERT_TRUE.
 inline testing::AssertionResult agrees_with_model(RtlReadout& rtl, std::span<const ColumnStream> columns,
                                                   std::uint32_t acquisitions, const RtlRunOptions& options,
                                                   RtlFrame* frame = nullptr) {
@@ -86,7 +88,7 @@ inline testing::AssertionResult agrees_with_model(RtlReadout& rtl, std::span<con
   return testing::AssertionFailure() << report;
 }
 
-/// Options with the waveform file that the environment asks for.
+/// Default options, with the waveform file that the environment requests.
 inline RtlRunOptions default_options(std::uint64_t seed) {
   RtlRunOptions options;
   options.seed = seed;
@@ -100,7 +102,7 @@ inline CounterRandom test_random(std::uint64_t seed, std::uint32_t a) {
   return {seed, static_cast<std::uint32_t>(RandomPurpose::kTestStream), a, 0};
 }
 
-/// Every pixel another adversarial stream: all kinds in turn, beginning with `first_kind`.
+/// Adversarial streams: each pixel has the next kind, beginning with `first_kind`.
 inline std::vector<ColumnStream> adversarial_columns(const RtlConfiguration& configuration,
                                                      std::uint32_t acquisitions, std::size_t first_kind,
                                                      CounterRandom& random) {
@@ -116,7 +118,7 @@ inline std::vector<ColumnStream> adversarial_columns(const RtlConfiguration& con
   return columns;
 }
 
-/// Where the array has a time gate: a new one, empty now and then.
+/// Sets a random gate, sometimes an empty one, if the array has a time gate.
 inline void move_gate(RtlReadout& rtl, CounterRandom& random) {
   const ReadoutParameters& parameters = rtl.configuration().parameters;
   if (parameters.time_gate) {
@@ -124,7 +126,7 @@ inline void move_gate(RtlReadout& rtl, CounterRandom& random) {
   }
 }
 
-/// Timestamps of one pixel, acquisition by acquisition, every slot filled.
+/// Column of one pixel with these timestamps, acquisition by acquisition; every slot is filled.
 inline ColumnStream single_pixel(const std::vector<Timestamp>& timestamps, int slots) {
   ColumnStream column;
   for (std::size_t i = 0; i < timestamps.size(); ++i) {

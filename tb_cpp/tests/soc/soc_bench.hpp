@@ -13,15 +13,15 @@
 
 namespace dtof {
 
-/// What is outside of the SoC: the clock, the processor's bus and interrupt, and the receiver of the serial
-/// line. Every access of the software takes its clocks, and the receiver listens in each of them. Throws
-/// RtlError where the SoC does not answer.
+/// Environment of the SoC: clock, the processor's bus and interrupt, and the receiver of the serial line.
+/// Every access of the software takes its clocks, and the receiver samples the line in each of them. Throws
+/// RtlError if the SoC does not answer.
 class SocBench {
  public:
   struct Response {
     std::uint32_t data = 0;
     bool error = false;
-    std::uint32_t clocks = 0;  ///< from the request on
+    std::uint32_t clocks = 0;  ///< clocks since the request
   };
 
   explicit SocBench(std::uint64_t seed);
@@ -31,7 +31,7 @@ class SocBench {
   SocBench(SocBench&&) = delete;
   SocBench& operator=(SocBench&&) = delete;
 
-  /// What the software calls; valid as long as the bench.
+  /// Functions for the software; valid as long as the bench.
   [[nodiscard]] soc_platform platform();
 
   Response read(std::uint32_t address) { return transfer({.valid = true, .address = address}); }
@@ -43,7 +43,7 @@ class SocBench {
   void reset();
   void clock(int count);
 
-  /// The words of the next frame on the serial line whose last word has not been taken from here.
+  /// Words of the oldest frame received on the serial line and not yet returned.
   std::vector<std::uint64_t> receive_frame();
 
  private:
@@ -57,7 +57,7 @@ class SocBench {
   bool reset_n_ = true;
   SerialReceiver receiver_;
   std::uint64_t word_ = 0;
-  unsigned bytes_ = 0;  // of the word
+  unsigned bytes_ = 0;  // bytes received of the current word
   std::vector<std::uint64_t> words_;
   bool frame_here_ = false;
 };

@@ -8,7 +8,7 @@ class VerilatedContext;
 
 namespace dtof {
 
-/// What the processor asks the bus for.
+/// A bus request of the processor.
 struct SocRequest {
   bool valid = false;
   bool write = false;
@@ -17,7 +17,7 @@ struct SocRequest {
   std::uint8_t strobe = 0;
 };
 
-/// The SoC's outputs, as the next rising edge samples them.
+/// Outputs of the SoC, as the next rising edge samples them.
 struct SocOutputs {
   bool request_ready = false;
   bool response_valid = false;
@@ -37,7 +37,7 @@ class SocModel {
   SocModel& operator=(SocModel&&) = delete;
   virtual ~SocModel() = default;
 
-  /// One clock.
+  /// Runs one clock.
   [[nodiscard]] virtual SocOutputs clock(bool reset_n, const SocRequest& request) = 0;
 };
 

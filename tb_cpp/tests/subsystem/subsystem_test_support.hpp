@@ -21,7 +21,7 @@
 
 namespace dtof {
 
-/// A result word's fields.
+/// Fields of a result word.
 struct ResultFields {
   int position = 0;
   int confidence = 0;
@@ -61,7 +61,7 @@ inline ResultFields fields_of(std::uint64_t word) {
           .raw = (word & DTOF_RESULT_RAW_MASK) != 0};
 }
 
-/// What a frame's registers say.
+/// Values of a frame's registers. Settings that the configuration lacks have no effect.
 struct FrameSettings {
   std::uint32_t acquisitions = 0;
   CodeGate gate{};  ///< without effect where there is none
@@ -76,7 +76,7 @@ struct FrameSettings {
   PoolTemplate coarse_template{};  ///< without effect where there is none
   std::uint32_t settle = 0;
 
-  /// Acquisitions that a frame takes, with those that it drops.
+  /// Acquisitions of a frame, including those that it drops.
   [[nodiscard]] std::uint32_t taken() const { return acquisitions > 0 ? acquisitions + settle : 0; }
 };
 
@@ -123,7 +123,7 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
   }
 }
 
-/// Writes TEMPLATE, which is there only for a pool read-out and not while a frame is under way.
+/// Writes TEMPLATE if the configuration has it. Must not be called while a frame is under way.
 inline void write_template(SubsystemBench& bench, const PoolTemplate& coarse_template) {
   if (is_pool_readout(bench.configuration().parameters.readout)) {
     for (std::size_t i = 0; i < coarse_template.size(); i += 4) {
@@ -136,7 +136,7 @@ inline void write_template(SubsystemBench& bench, const PoolTemplate& coarse_tem
   }
 }
 
-/// Entries of all kinds: nothing, all, much, little.
+/// Random TEMPLATE entries: each is 0, 255, any byte, or below 16.
 inline PoolTemplate random_template(CounterRandom& random) {
   PoolTemplate coarse_template{};
   for (std::uint8_t& entry : coarse_template) {
@@ -146,8 +146,8 @@ inline PoolTemplate random_template(CounterRandom& random) {
   return coarse_template;
 }
 
-/// The words of a frame whose array took `lines`: the C++ model's results, and the status. `priors`: what the
-/// array keeps from frame to frame, where a setting has it begin from that.
+/// Words of a frame whose array took `lines`: results of the C++ model, and the status. `priors`: candidates
+/// that the array keeps from frame to frame, used if the settings enable the prior.
 inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const FrameSettings& settings,
                                                   const std::vector<Line>& lines,
                                                   std::vector<PoolPrior>* priors = nullptr) {
@@ -161,7 +161,7 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
   const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
   const auto slots = static_cast<std::size_t>(parameters.slots);
   std::vector<ColumnStream> streams;
-  std::vector<std::vector<std::vector<PixelResult>>> histograms;  // of a raw frame: column, row, bin
+  std::vector<std::vector<std::vector<PixelResult>>> histograms;  // bins of a raw frame: [column][row][bin]
   const bool raw = settings.raw && configuration.raw_histogram;
   for (std::size_t column = 0; column < static_cast<std::size_t>(configuration.sram_num); ++column) {
     const bool enabled = settings.enabled.empty() || settings.enabled[column];
@@ -249,7 +249,7 @@ inline std::vector<ResultFields> received_results(const SubsystemBench& bench, s
   return received;
 }
 
-/// Lines of whole acquisitions without a detection.
+/// Lines of whole acquisitions without detections.
 inline std::vector<Line> dark_lines(const RtlConfiguration& configuration, std::uint32_t acquisitions) {
   const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
   const auto slots = static_cast<std::size_t>(configuration.parameters.slots);
@@ -257,7 +257,7 @@ inline std::vector<Line> dark_lines(const RtlConfiguration& configuration, std::
   return {acquisitions * rows * slots, Line(static_cast<std::size_t>(configuration.sram_num), none)};
 }
 
-/// Puts a pixel's detections, which are sorted by acquisition, into the lines.
+/// Puts a pixel's detections, which must be sorted by acquisition, into the lines.
 inline void put_pixel(std::vector<Line>& lines, const RtlConfiguration& configuration, std::size_t column,
                       std::size_t row, std::span<const Detection> detections) {
   const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
@@ -269,7 +269,7 @@ inline void put_pixel(std::vector<Line>& lines, const RtlConfiguration& configur
   }
 }
 
-/// Lines of whole acquisitions: every pixel another kind of stream.
+/// Lines of whole acquisitions; each pixel has another kind of stream.
 inline std::vector<Line> make_lines(const RtlConfiguration& configuration, std::uint32_t acquisitions,
                                     CounterRandom& random) {
   std::vector<Line> lines = dark_lines(configuration, acquisitions);
@@ -284,7 +284,7 @@ inline std::vector<Line> make_lines(const RtlConfiguration& configuration, std::
   return lines;
 }
 
-/// Lines of which none is dark, so that the bench can tell each from one that is missing.
+/// Lines with a detection in each of them, so that the bench can tell every line from a missing one.
 inline std::vector<Line> bright_lines(const RtlConfiguration& configuration, std::uint32_t acquisitions,
                                       CounterRandom& random) {
   std::vector<Line> lines = make_lines(configuration, acquisitions, random);
@@ -301,7 +301,7 @@ inline void push_lines(SubsystemBench& bench, const std::vector<Line>& lines) {
   }
 }
 
-/// What the array takes of a frame's lines: those behind the acquisitions that the frame drops.
+/// Lines of a frame that reach the array: those after the acquisitions that the frame drops.
 inline std::vector<Line> settled_lines(const SubsystemBench& bench, const FrameSettings& settings,
                                        const std::vector<Line>& lines) {
   const std::size_t dropped =
@@ -309,7 +309,7 @@ inline std::vector<Line> settled_lines(const SubsystemBench& bench, const FrameS
   return {lines.begin() + static_cast<std::ptrdiff_t>(dropped), lines.end()};
 }
 
-/// Each compiled subsystem whose source can wait.
+/// Tests of each compiled subsystem whose source can wait.
 class Subsystem : public testing::TestWithParam<CompiledSubsystem> {
  protected:
   void SetUp() override {

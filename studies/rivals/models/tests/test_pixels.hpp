@@ -13,7 +13,7 @@
 
 namespace dtof {
 
-/// Detections of these timestamps, one an acquisition from acquisition 0 on.
+/// One detection per timestamp, in acquisitions 0, 1, 2 and so on.
 inline std::vector<Detection> one_each(std::span<const int> timestamps) {
   std::vector<Detection> detections;
   for (const int timestamp : timestamps) {
@@ -22,14 +22,13 @@ inline std::vector<Detection> one_each(std::span<const int> timestamps) {
   return detections;
 }
 
-/// The words of a pixel of one frame.
+/// Words of a pixel after one frame.
 inline RivalWords read_one_frame(const Rival& rival, std::span<const Detection> detections) {
   return rival.read_pixel(std::vector<std::span<const Detection>>{detections});
 }
 
-/// A frame without noise: round(events g(x)) detections of each code x of a pulse with its mean in the middle
-/// of code `centre`, and `floor` of every code; so ordered that any part of the frame is like the whole of
-/// it.
+/// A frame without noise. Code x has round(events g(x)) detections of a pulse with its mean in the middle of
+/// code `centre`, plus `floor`. The order makes any part of the frame similar to the whole.
 inline std::vector<Detection> noise_free_pulse(const SensorModel& sensor, double centre, double events,
                                                int floor) {
   const double sigma = sensor.pulse_sigma_s() / sensor.time_resolution_s();
@@ -41,7 +40,7 @@ inline std::vector<Detection> noise_free_pulse(const SensorModel& sensor, double
     timestamps.insert(timestamps.end(),
                       static_cast<std::size_t>(std::lround(mean)) + static_cast<std::size_t>(floor), x);
   }
-  // A stride without a common factor with the number shuffles them the same way every time.
+  // A stride without a common factor with the number always shuffles in the same way.
   std::vector<int> shuffled;
   std::size_t stride = timestamps.size() * 618 / 1000 | 1U;
   while (!timestamps.empty() && std::gcd(stride, timestamps.size()) != 1) {
