@@ -3,7 +3,8 @@
 # arrival times of SRAM words and broadcasts, and without the required times of their outputs.
 #   grow     On the slowest path, enlarges the gate whose larger drive removes the most negative slack for its area, and others that remove
 #            at least SHARE_OF_BEST of that. Ends if no slack is negative, or if no such gate is on the slowest PATHS, or if MOST_GROWN
-#            gates are enlarged. Does not try if a path misses by more than HOPELESS_NS, which no drive corrects.
+#            gates are enlarged. Does not try if a path misses by more than HOPELESS_NS, which no drive corrects. OpenSTA's total negative
+#            slack changes a little with every trial, so a gate can seem to help: a gate whose second trial shows no gain is not tried again.
 #   drop     Removes buffers of `dispensable` if all paths stay met: {kind buffer driver drive}, where `drive` is the cell of
 #            the driver that carries the load without the buffer.
 #   shrink   Sets the gates of `shrinkable` to the next smaller drive if all paths stay met.
@@ -82,7 +83,7 @@ proc growths_of_path {path} {
   set before [total_negative_slack]
   set found {}
   foreach gate [growable $path] {
-    if {[info exists ::hopeless($gate)]} { continue }
+    if {[info exists ::hopeless($gate)] || [info exists ::useless($gate)]} { continue }
     set cells [instances {*}$gate]
     set now [get_property [lindex $cells 0] ref_name]
     set next $::larger($now)
@@ -160,7 +161,11 @@ proc grow_late_paths {} {
   for {set grown 0} {$grown < $::MOST_GROWN && [total_negative_slack] < 0} {} {
     set growths [best_growths]
     if {$growths eq ""} { break }
-    foreach growth [grow $growths] {
+    set chosen [grow $growths]
+    if {$chosen eq ""} {
+      foreach growth $growths { set ::useless([lindex $growth 1]) 1 }
+    }
+    foreach growth $chosen {
       note {*}$growth
       incr grown
     }
