@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs Verilator's model of a bench up to its $finish. Replaces --main of Verilator 5.006, which would be compiled into every
-// hierarchy block, too.
+// Runs Verilator's model of a bench up to its $finish. Replaces --main of Verilator 5.006, which would be
+// compiled into every hierarchy block, too.
 #include "Vfull_bench.h"
 #include "verilated.h"
 
