@@ -94,7 +94,7 @@ TEST_F(StreamCsvTest, MinusOneIsNoEventButCountsForTheSizes) {
 }
 
 TEST_F(StreamCsvTest, GzipIsUnpacked) {
-  write_gzip_file(path("s.csv.gz"), std::string(kHeader) + "5,1,0,30\n");
+  write_gzip_file(path("s.csv.gz"), fmt::format("{}5,1,0,30\n", kHeader));
   EXPECT_THAT(read_stream_csv(path("s.csv.gz"), {}).column(1).row(0), ElementsAre(Detection{5, 30}));
 }
 
