@@ -177,7 +177,7 @@ class Pictures(Shown):
         self.assertEqual(self.wrong, [])
         for width, height in SIZES:
             self.show(width, height)
-            self.assertIn("(chart.js): npm is not installed.", self.browser.evaluate("document.querySelector('main > .missing').textContent"))
+            self.assertIn("(chart.js) is missing: npm is not installed.", self.browser.evaluate("document.querySelector('main > .missing').textContent"))
             self.assertEqual(self.browser.evaluate("[...document.images].map(i => i.naturalWidth > 0)"), [True])
             self.assertEqual(self.browser.evaluate("document.querySelectorAll('canvas, #filters').length"), 0)
             self.assertEqual(self.browser.complaints, [])
