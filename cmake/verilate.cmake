@@ -27,7 +27,7 @@
 #
 # WRITABLE_SRAMS makes the SRAMs' contents writable from C++ (rtl/sram.hpp).
 #
-# WAVEFORM adds what records waveforms, which takes longer to compile than the rest of a model. The variable DTOF_WAVEFORMS
+# WAVEFORM adds the code that records waveforms, which about doubles the compile time of a model. The variable DTOF_WAVEFORMS
 # adds it to every model of a folder.
 #
 # SELDOM: only programs outside of `all` link the library, so that `all` does not build the library either.
