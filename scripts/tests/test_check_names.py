@@ -2,16 +2,13 @@
 """The RTL's names, and the RTL beside a user's modules of the names that it had without its prefix."""
 
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+import check_names
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import check_names  # noqa: E402
-
 HDL = ROOT / "hdl"
 
 
