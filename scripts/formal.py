@@ -152,10 +152,11 @@ def load_proofs() -> list[Proof]:
 
 
 def design_files() -> list[Path]:
-    """RTL of the file list, with SRAM models for proofs."""
+    """RTL of the file list, with SRAM models for proofs and the rules of the interfaces."""
     lines = (HDL / "dtof.f").read_text().splitlines()
     files = [HDL / line for line in lines if line.endswith(".sv") and not line.startswith(("//", "technology/"))]
-    return files + [FORMAL / "dtof_sram_1r1w.sv", FORMAL / "dtof_sram_1rw.sv", FORMAL / "arbitrary_value.sv"]
+    models = ("dtof_sram_1r1w", "dtof_sram_1rw", "arbitrary_value", "axi_stream_rules", "axi_lite_rules", "apb_rules")
+    return files + [FORMAL / f"{name}.sv" for name in models]
 
 
 def needed_files(harness: Path) -> list[Path]:
