@@ -102,7 +102,6 @@ module apb_registers_properties #(
       .NB              (5),
       .WINDOW_CENTRED  (WINDOW_CENTRED),
       .POINTER_STEP    (21),
-      .GUARD           (301),
       .GROUP_SIZE      (4),
       .LABELS          (5),
       .SCORE_BITS      (6),
@@ -330,7 +329,7 @@ module apb_registers_properties #(
       dtof_registers_pkg::SLOTS: fixed = 32'd2;
       dtof_registers_pkg::RAW_BINS: fixed = 32'd1000;
       dtof_registers_pkg::HISTOGRAM: fixed = {15'd0, WINDOW_CENTRED != 0, 8'd5, 8'd9};
-      dtof_registers_pkg::POINTER: fixed = {17'd301, 15'd21};
+      dtof_registers_pkg::POINTER: fixed = {17'd0, 15'd21};
       dtof_registers_pkg::POOL: if (HAS_SCHEDULE != 0) fixed = {4'd10, 4'd1, 4'd8, 4'd7, 4'd6, 4'd5, 8'd4};
       dtof_registers_pkg::ENGINES: if (HAS_SCHEDULE != 0) fixed = {15'd0, RIVAL_MOVES != 0, 16'd34};
       dtof_registers_pkg::SHARES: if (HAS_SCHEDULE != 0) fixed = {16'd0, 8'd20, 8'd14};
@@ -376,7 +375,7 @@ module apb_registers_properties #(
         at_once = 1'b1;
         shown = 32'(coarse_template >> (8 * (32'(watched) - 32'(dtof_registers_pkg::TEMPLATE))));
       end else if (is_enable(watched)) begin
-        shown = 32'(1024'(enable) >> (8 * (32'(watched) - 32'(dtof_registers_pkg::COLUMN_ENABLE))));
+        shown = 32'(enable >> (8 * (32'(watched) - 32'(dtof_registers_pkg::COLUMN_ENABLE))));
       end else begin
         has_output = 1'b0;
       end
