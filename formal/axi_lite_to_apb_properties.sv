@@ -76,12 +76,10 @@ module axi_lite_to_apb_properties #(
   (* anyconst *) logic [2:0] watched;
   (* anyconst *) logic [4:0] watched_bit;
   logic [2:0] aw_q, w_q, ar_q, apb_writes_q, apb_reads_q, b_q, r_q;
-  logic [ADDR_WIDTH-1:0] aw_address_q, ar_address_q, paddr_q;
-  logic [3:0] strobe_q, pstrb_q;
+  logic [ADDR_WIDTH-1:0] aw_address_q, ar_address_q;
+  logic [3:0] strobe_q;
   logic write_bit_q, read_bit_q, write_error_q, read_error_q;
-  logic ends, held_q, pwrite_q, pwdata_bit_q;
-  logic bvalid_q, rvalid_q, rbit_q;
-  logic [1:0] bresp_q, rresp_q;
+  logic ends;
   logic responds_q;        // a response was taken in the last clock
   logic [3:0] stream_q;    // clocks with reads only, without a pause of master or APB
   logic [3:0] read_wait_q, write_wait_q;  // clocks in which only this module delays a read, or a write
@@ -91,9 +89,6 @@ module axi_lite_to_apb_properties #(
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
       {aw_q, w_q, ar_q, apb_writes_q, apb_reads_q, b_q, r_q} <= '0;
-      held_q <= 1'b0;
-      bvalid_q <= 1'b0;
-      rvalid_q <= 1'b0;
       read_wait_q <= '0;
       write_wait_q <= '0;
       responds_q <= 1'b0;
@@ -124,24 +119,55 @@ module axi_lite_to_apb_properties #(
       end
       if (bvalid && bready_i) b_q <= b_q + 1'b1;
       if (rvalid && rready_i) r_q <= r_q + 1'b1;
-      held_q <= psel && !ends;
-      bvalid_q <= bvalid && !bready_i;
-      rvalid_q <= rvalid && !rready_i;
       read_wait_q <= (ar_q != r_q && pready_i && rready_i && bready_i && !(rvalid && rready_i)) ? read_wait_q + 1'b1 : '0;
       write_wait_q <= (aw_q != b_q && w_q != b_q && pready_i && rready_i && bready_i && !(bvalid && bready_i))
           ? write_wait_q + 1'b1 : '0;
     end
-    {pwrite_q, paddr_q, pstrb_q, pwdata_bit_q} <= {pwrite, paddr, pstrb, pwdata[watched_bit]};
-    {bresp_q, rresp_q, rbit_q} <= {bresp, rresp, rdata[watched_bit]};
   end
 
   logic [2:0] reads, writes;
   assign reads = ar_q - r_q;
   assign writes = apb_writes_q - b_q;
 
+  axi_lite_rules #(
+      .MOST_OPEN(4)
+  ) u_axi_lite_rules (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_n),
+      .checking (checking),
+      .awvalid_i(awvalid_i),
+      .awready_i(awready),
+      .wvalid_i (wvalid_i),
+      .wready_i (wready),
+      .bvalid_i (bvalid),
+      .bready_i (bready_i),
+      .bresp_i  (bresp),
+      .arvalid_i(arvalid_i),
+      .arready_i(arready),
+      .rvalid_i (rvalid),
+      .rready_i (rready_i),
+      .rdata_i  (rdata),
+      .rresp_i  (rresp)
+  );
+
+  apb_rules #(
+      .ADDR_WIDTH(ADDR_WIDTH),
+      .REQUESTER (1)
+  ) u_apb_rules (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_n),
+      .checking (checking),
+      .psel_i   (psel),
+      .penable_i(penable),
+      .pwrite_i (pwrite),
+      .paddr_i  (paddr),
+      .pwdata_i (pwdata),
+      .pstrb_i  (pstrb),
+      .pready_i (pready_i),
+      .pslverr_i(pslverr_i)
+  );
+
   // APB
-  `PROVE(a_enable_in_second_clock, !rst_n || penable == (psel && held_q))
-  `PROVE(a_rests, !(rst_n && held_q) || (psel && {pwrite, paddr, pstrb, pwdata[watched_bit]} == {pwrite_q, paddr_q, pstrb_q, pwdata_bit_q}))
   `PROVE(a_read, !(rst_n && psel && !pwrite) || (apb_reads_q != ar_q && (apb_reads_q != watched || (paddr == ar_address_q && pstrb == '0))))
   `PROVE(a_write, !(rst_n && psel && pwrite) || (apb_writes_q != aw_q && apb_writes_q != w_q
          && (apb_writes_q != watched || (paddr == aw_address_q && pstrb == strobe_q && pwdata[watched_bit] == write_bit_q))))
@@ -149,8 +175,6 @@ module axi_lite_to_apb_properties #(
   `PROVE(a_read_response, !(rst_n && rvalid) || (r_q != apb_reads_q
          && (r_q != watched || (rdata[watched_bit] == read_bit_q && rresp == {read_error_q, 1'b0}))))
   `PROVE(a_write_response, !(rst_n && bvalid) || (b_q != apb_writes_q && (b_q != watched || bresp == {write_error_q, 1'b0})))
-  `PROVE(a_read_response_stays, !(rst_n && rvalid_q) || (rvalid && rresp == rresp_q && rdata[watched_bit] == rbit_q))
-  `PROVE(a_write_response_stays, !(rst_n && bvalid_q) || (bvalid && bresp == bresp_q))
   `PROVE(a_few, !rst_n || (reads <= 3'd3 && writes <= 3'd2))
   // A request is delayed by its own transfer of two clocks and at most one transfer of the other kind.
   `PROVE(a_reads_go_on, !rst_n || read_wait_q <= 4'd7)

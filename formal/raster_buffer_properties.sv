@@ -131,6 +131,18 @@ module raster_buffer_properties #(
     result_q <= result;
   end
 
+  // An aborted result has no pixel and no data.
+  axi_stream_rules #(
+      .WIDTH(2 + WIDTH + COLUMN_WIDTH + ROW_WIDTH + 1)
+  ) u_rules (
+      .clk_i   (clk_i),
+      .rst_ni  (rst_n),
+      .checking(checking),
+      .tvalid_i(tvalid),
+      .tready_i(m_tready_i),
+      .tdata_i ({aborted, tlast, aborted ? '0 : {result, second, column, row}})
+  );
+
   // A frame has each pixel once or twice, and ends with tlast.
   `ASSUME(m_in_array, 32'(s_column_i) < SRAM_NUM && 32'(s_row_i) < PIXELS_PER_SRAM)
   `ASSUME(m_watched, 32'(watched_column) < SRAM_NUM && 32'(watched_row) < PIXELS_PER_SRAM
@@ -148,7 +160,6 @@ module raster_buffer_properties #(
   `PROVE(a_tlast, !(rst_n && tvalid) || tlast == (aborted || out_q == last_out))
   `PROVE(a_aborted, !(rst_n && tvalid && aborted) || owed_q)
   `PROVE(a_ends_at_once, !(rst_n && owed_q && !held_q) || (tvalid && aborted))
-  `PROVE(a_valid_holds, !(rst_n && held_q) || (tvalid && aborted == aborted_q && (aborted || result == result_q)))
   `PROVE(a_takes_results, !rst_n || whole_q || cut_i || s_tready)
   `PROVE(a_goes_on, !rst_n || pause_q < 3)
   `GOAL(rst_n && pop && tlast && column == watched_column && row == watched_row)

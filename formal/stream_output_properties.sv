@@ -128,6 +128,17 @@ module stream_output_properties #(
     end
   end
 
+  axi_stream_rules #(
+      .WIDTH(66)
+  ) u_rules (
+      .clk_i   (clk_i),
+      .rst_ni  (rst_n),
+      .checking(checking),
+      .tvalid_i(tvalid),
+      .tready_i(m_axis_tready_i),
+      .tdata_i ({tuser, tlast, tdata})
+  );
+
   `ASSUME(m_column, 32'(column_i) < SRAM_NUM)
   `PROVE(a_tvalid, !rst_n || tvalid == (count_q != 2'd0))
   `PROVE(a_tready, !rst_n || result_tready == (count_q != 2'd2 && !cut_i))

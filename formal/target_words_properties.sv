@@ -54,22 +54,42 @@ module target_words_properties #(
       .m_tlast_o (tlast)
   );
 
-  logic held_q, sent_q, waited_q, push, pop;
-  logic [ENTRY_WIDTH-1:0] offered, offered_q;
+  logic sent_q, waited_q, push, pop;
+  logic [ENTRY_WIDTH-1:0] offered;
 
   assign offered = {both_i, s_tlast_i, place_i, second_i, first_i, confidence_i};
   assign push = s_tvalid_i && s_tready;
   assign pop = tvalid && m_tready_i;
 
   always_ff @(posedge clk_i) begin
-    held_q <= rst_n && s_tvalid_i && !s_tready;
     waited_q <= rst_n && tvalid && !m_tready_i;
-    offered_q <= offered;
     if (!rst_n || push) sent_q <= 1'b0;
     else if (pop) sent_q <= 1'b1;
   end
 
-  `ASSUME(m_held, !(rst_n && held_q) || (s_tvalid_i && offered == offered_q))
+  axi_stream_rules #(
+      .WIDTH  (ENTRY_WIDTH),
+      .ASSUMED(1)
+  ) u_source_rules (
+      .clk_i   (clk_i),
+      .rst_ni  (rst_n),
+      .checking(checking),
+      .tvalid_i(s_tvalid_i),
+      .tready_i(s_tready),
+      .tdata_i (offered)
+  );
+
+  axi_stream_rules #(
+      .WIDTH(PLACE_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH + 2)
+  ) u_rules (
+      .clk_i   (clk_i),
+      .rst_ni  (rst_n),
+      .checking(checking),
+      .tvalid_i(tvalid),
+      .tready_i(m_tready_i),
+      .tdata_i ({second, tlast, tdata})
+  );
+
   `PROVE(a_tvalid, !rst_n || tvalid == s_tvalid_i)
   `PROVE(a_taken, !rst_n || push == (pop && (sent_q || !both_i)))
   `PROVE(a_second, !(rst_n && tvalid) || second == sent_q)

@@ -58,7 +58,7 @@ write_aiger -I -B -L -zinit -symbols -map model.aim model.aig
 """
 SIMULATE_SCRIPT = """
 read_rtlil model.il
-sim -q -r counterexample.aiw -map model.aim -vcd counterexample.vcd -clock clk_i
+sim -q -r counterexample.aiw -map model.aim -vcd counterexample.vcd {clock}
 """
 
 
@@ -91,6 +91,7 @@ class Proof:
     goal: str = ""  # what is reached in a run of its own
     goal_parameters: dict[str, int] | None = None
     quick: bool = False
+    free_clock: bool = False  # a step is a moment instead of a clock, and the clock is an input like any other
     timeout: int = 240  # seconds of processor time a tool may take
 
 
@@ -154,10 +155,11 @@ def load_proofs() -> list[Proof]:
 
 
 def design_files() -> list[Path]:
-    """RTL of the file list, with SRAM models for proofs."""
+    """RTL of the file list, with SRAM models for proofs and the rules of the interfaces."""
     lines = (HDL / "dtof.f").read_text().splitlines()
     files = [HDL / line for line in lines if line.endswith(".sv") and not line.startswith(("//", "technology/"))]
-    return files + [FORMAL / "dtof_sram_1r1w.sv", FORMAL / "dtof_sram_1rw.sv", FORMAL / "arbitrary_value.sv"]
+    models = ("dtof_sram_1r1w", "dtof_sram_1rw", "arbitrary_value", "axi_stream_rules", "axi_lite_rules", "apb_rules")
+    return files + [FORMAL / f"{name}.sv" for name in models]
 
 
 def needed_files(harness: Path) -> list[Path]:
@@ -210,13 +212,14 @@ def abc(engine: str) -> list[str]:
     return ["yosys-abc", "-c", f"read_aiger model.aig; fold; strash; {engine}; write_cex -a trace.aiw"]
 
 
-def failing_assertion(folder: Path) -> str:
+def failing_assertion(folder: Path, free_clock: bool) -> str:
     """Replays the counterexample in Yosys, which writes the waveforms and names the assertion."""
     _, *inputs = (folder / "trace.aiw").read_text().replace("# DONE", "").split()
     # All registers are 0 before the first clock, those that ABC has dropped as well.
     registers = int((folder / "model.aig").read_bytes().split(maxsplit=4)[3])
     (folder / "counterexample.aiw").write_text("\n".join(["1", "b0", "0" * registers, *inputs, "."]) + "\n")
-    log, _ = run_tool(["yosys", "-p", SIMULATE_SCRIPT], folder, "simulate.log", SIMULATE_SECONDS)
+    script = SIMULATE_SCRIPT.format(clock="-multiclock" if free_clock else "-clock clk_i")
+    log, _ = run_tool(["yosys", "-p", script], folder, "simulate.log", SIMULATE_SECONDS)
     match = re.search(r"Assert (\S+)(?: \(.*\))? failed", log)
     if match is None:
         raise FormalError(f"the counterexample in {folder.relative_to(ROOT)} does not fail when it is replayed")
@@ -235,6 +238,8 @@ def solve(job: Job) -> Outcome:
         harness=proof.harness,
         parameters="".join(f"chparam -set {name} {value} {proof.harness}; " for name, value in job.parameters.items()),
     )
+    if proof.free_clock:
+        script = script.replace("async2sync", "clk2fflogic")
     unbounded = job.kind == "prove" and proof.frames is None
     frames = SEARCH_FRAMES if proof.frames is None else proof.frames
     # Equal registers and gates are merged first where there should be no counterexample.
@@ -258,7 +263,7 @@ def solve(job: Job) -> Outcome:
     if failed:
         if swept:  # its trace lacks inputs
             run_tool(abc(f"bmc3 -F {int(failed[1]) + 1}"), folder, "trace.log", proof.timeout)
-        outcome = Outcome("failed", seconds, int(failed[1]), failing_assertion(folder))
+        outcome = Outcome("failed", seconds, int(failed[1]), failing_assertion(folder, proof.free_clock))
     else:
         done = "Property proved" in log if unbounded else f"No output asserted in {frames} frames" in log
         outcome = Outcome("proved" if done else "unknown", seconds)
