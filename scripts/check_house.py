@@ -5,7 +5,8 @@
 Arrows: a C++ library includes headers of the libraries that its CMakeLists.txt names (DEPENDS, PRIVATE_DEPENDS, and what those depend on);
 no library depends on itself by way of others; models/ depends on no other room.
 Ratchets (scripts/house.toml): how many files are longer than 500 lines, how many functions longer than 80, in how many files outside of
-hdl/ and models/ a parameter's name is typed by hand. More than the number is an error, and so is less: lower the number then.
+hdl/ and models/ a parameter's name is typed by hand, how many statements change sys.path (docs/reference/decisions.md says how Python finds
+modules instead). More than the number is an error, and so is less: lower the number then.
 """
 
 import ast
@@ -25,6 +26,8 @@ SECTIONS = re.compile(r"\b(SOURCES|DEPENDS|PRIVATE_DEPENDS|INTERNAL)\b")
 LONG_FILE, LONG_FUNCTION = 500, 80
 GENERATED = re.compile(r"// ([\w ]+): written by scripts/generate\.py from .*?// end of \1\n", re.DOTALL)
 CODE = (".sv", ".svh", ".py", ".cpp", ".hpp", ".c", ".h", ".sh", ".tcl")
+PYTHON = (".py", "/Snakefile", ".ci/long")
+SYS_PATH = re.compile(r"(?:^|;)[ \t]*sys\.path(?:\.\w+\(|\[[^\]\n]*\] *=|(?: *=| *\+=)(?!=))", re.MULTILINE)
 CPP_FUNCTION = re.compile(r"^( {0,2})\S.*\) (?:const |noexcept |override |-> [^{;]+ )*\{$")
 
 
@@ -111,7 +114,7 @@ def long_functions(root: Path, file: str) -> int:
 
 def counts(root: Path, files: list[str]) -> dict[str, int]:
     written = re.compile(r"Written by scripts/")
-    texts = {file: (root / file).read_text(encoding="utf-8", errors="replace") for file in files if file.endswith((*CODE, ".toml", ".mk", ".in"))}
+    texts = {file: (root / file).read_text(encoding="utf-8", errors="replace") for file in files if file.endswith((*CODE, *PYTHON, ".toml", ".mk", ".in"))}
     own = {file: text for file, text in texts.items() if not written.search(text[:300])}
     return {
         "files_above_500_lines": sum(text.count("\n") > LONG_FILE for file, text in own.items() if file.endswith(CODE)),
@@ -119,6 +122,7 @@ def counts(root: Path, files: list[str]) -> dict[str, int]:
         # scripts/templates/ has RTL; what generate.py writes between marks is no list of its own.
         "files_that_name_GUARD": sum(bool(re.search(r"\bGUARD\b", GENERATED.sub("", text))) for file, text in own.items()
                                      if not file.startswith(("hdl/", "models/", "scripts/templates/", "readouts.toml", "configurations.toml"))),
+        "edits_of_sys_path": sum(len(SYS_PATH.findall(text)) for file, text in own.items() if file.endswith(PYTHON)),
     }
 
 

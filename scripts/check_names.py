@@ -10,21 +10,17 @@ import re
 import sys
 from pathlib import Path
 
+import rtl_text
+
 ROOT = Path(__file__).resolve().parent.parent
 PREFIX = "dtof_"
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 _DEFINED = re.compile(r"^\s*(?:module|package|interface|program|primitive|class|`define)\s+(?:automatic\s+|static\s+)?(\w+)", re.MULTILINE)
 _SHARED_TYPE = re.compile(r"^typedef\b(?:[^;{]|\{[^}]*\})*?\b(\w+)\s*;", re.MULTILINE)  # in the first column: outside of modules
 
 
-def without_comments(text: str) -> str:
-    """The text with as many lines and no comment."""
-    return _COMMENT.sub(lambda found: "\n" * found.group().count("\n"), text)
-
-
 def names(text: str) -> list[tuple[int, str]]:
     """(line, name) of what a file defines for every other file. An include file's types belong to the module that includes the file."""
-    code = without_comments(text)
+    code = rtl_text.without_comments(text)
     found = [*_DEFINED.finditer(code), *(_SHARED_TYPE.finditer(code) if "module" in code else ())]
     return sorted((code.count("\n", 0, one.start(1)) + 1, one.group(1)) for one in found)
 

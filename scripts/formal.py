@@ -21,6 +21,8 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+from rtl_text import without_comments
+
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 FORMAL = ROOT / "formal"
@@ -221,10 +223,6 @@ def failing_assertion(folder: Path) -> str:
     return match[1].split(".", 1)[1]
 
 
-def without_comments(text: str) -> str:
-    return " ".join(re.sub(r"//.*", "", text).split())
-
-
 def solve(job: Job) -> Outcome:
     """The outcome of a run. Reused if an earlier run had the same sources and commands."""
     proof, folder = job.proof, job.folder()
@@ -244,7 +242,7 @@ def solve(job: Job) -> Outcome:
     engine = f"{'scorr; ' if swept else ''}{'pdr' if unbounded else f'bmc3 -F {frames}'}"
 
     headers = (*HDL.glob("common/*.svh"), *FORMAL.glob("*.svh"))
-    texts = [script, engine, *(without_comments(file.read_text()) for file in (*files, *headers))]
+    texts = [script, engine, *(" ".join(without_comments(file.read_text()).split()) for file in (*files, *headers))]
     key = hashlib.sha256("\0".join(texts).encode()).hexdigest()
     kept = folder / "outcome.json"
     if kept.exists():

@@ -17,6 +17,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import fpga_check
+from dtof_synth import statistics
+from dtof_synth.errors import FlowError
 from figures.small import written_root
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -27,9 +29,6 @@ TOP = "demonstrator"
 FOLDER = ROOT / "fpga"
 BOARD_MHZ = 12
 SEED = 1  # of the placement: the same result in every run
-
-from dtof_synth import statistics  # noqa: E402, fpga_check has set the path
-from dtof_synth.errors import FlowError  # noqa: E402, fpga_check has set the path
 
 
 @dataclass(frozen=True)

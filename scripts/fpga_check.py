@@ -17,16 +17,15 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from dtof_synth import readouts, statistics
+from dtof_synth.errors import FlowError
+
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 BUILD = ROOT / "build" / "fpga"
 REPORT = ROOT / "reports" / "fpga_check.md"
 TOP = "dtof_subsystem"
 SIZE = {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 16, "CLOCK_WAITS": 0}  # hdl/technology/fpga has no clock gate
-sys.path.insert(0, str(ROOT / "synth"))
-
-from dtof_synth import readouts, statistics  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
 
 
 @dataclass(frozen=True)

@@ -10,16 +10,14 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import file_lists
+import register_maps
+import registers
+from dtof_synth.errors import FlowError
+from dtof_synth.readouts import Expression, Readout, Table, Top, evaluate, load
+from figures import reports
+
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "synth"))
-
-import file_lists  # noqa: E402
-import register_maps  # noqa: E402
-import registers  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
-from dtof_synth.readouts import Expression, Readout, Table, Top, evaluate, load  # noqa: E402
-from figures import reports  # noqa: E402
-
 WRITTEN = "Written by scripts/generate.py from readouts.toml."
 FEWEST_BITS, MOST_BITS = 3, 16  # of a timestamp
 POINTER = "pointer"

@@ -7,13 +7,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import plot_style
+from dtof_synth.configuration import load
+
 ROOT = Path(__file__).resolve().parent.parent
 REPORTS = ROOT / "reports"
-sys.path.insert(0, str(ROOT / "synth"))
-
-import plot_style  # noqa: E402
-from dtof_synth.configuration import load  # noqa: E402
-
 PARAMETERS = {"NP": "bits of a timestamp", "NB": "bits of the coarse index", "PIXELS_PER_SRAM": "pixels of a column",
               "SRAM_NUM": "columns"}
 METRICS = {"total_mm2": "area, mm^2", "bits_per_pixel": "memory, bits a pixel", "fmax_slow_mhz": "slow-corner clock, MHz"}

@@ -15,16 +15,14 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import rtl_rules
+import slang
+from dtof_synth import readouts, statistics
+from dtof_synth.configuration import Configuration, load
+from dtof_synth.errors import FlowError
+
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
-
-import rtl_rules  # noqa: E402
-import slang  # noqa: E402
-from dtof_synth import readouts, statistics  # noqa: E402
-from dtof_synth.configuration import Configuration, load  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
-
 SIZE = slang.TOPS
 SUBSYSTEM = "dtof_subsystem"
 IN_FRONT = {"dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {}}  # what stands in front of it

@@ -13,12 +13,10 @@ few columns.
 import sys
 from pathlib import Path
 
+from dtof_synth.configuration import Configuration, load
+from dtof_synth.errors import FlowError
+
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "synth"))
-
-from dtof_synth.configuration import Configuration, load  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
-
 SMALL_COLUMNS = [3]  # of an engine for small sensors
 HARNESS_ACQ_WIDTH = 16  # of tb_cpp/rtl/*_testbench.sv
 

@@ -13,14 +13,12 @@ import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from figures.small import written_root
+from mutation import cpp, report, rtl, subsystem
+from mutation.explained import explain, load
+from mutation.verdict import MutationError, Verdict
+
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "scripts"))
-
-from figures.small import written_root  # noqa: E402
-from mutation import cpp, report, rtl, subsystem  # noqa: E402
-from mutation.explained import explain, load  # noqa: E402
-from mutation.verdict import MutationError, Verdict  # noqa: E402
-
 BUILD = ROOT / "build" / "mutate"
 TABLE = written_root(ROOT) / "reports" / "mutants.csv"
 RUNS = {"C++": cpp.run, "RTL": rtl.run, "subsystem": subsystem.run}

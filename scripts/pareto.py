@@ -15,16 +15,14 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+import plot_style
+from dtof_synth.configuration import load
+from dtof_synth.goals import ARRAY_MM2
 from figures.small import written_root
 
 ROOT = Path(__file__).resolve().parent.parent
 REPORTS = ROOT / "reports"
 WRITTEN = written_root(ROOT) / "reports"
-sys.path.insert(0, str(ROOT / "synth"))
-
-import plot_style  # noqa: E402
-from dtof_synth.configuration import load  # noqa: E402
-from dtof_synth.goals import ARRAY_MM2  # noqa: E402
 
 POOL_CONFIGURATIONS = {"poolpointer": "poolPointer", "poolpointer_lean": "poolPointer lean"}
 PRESET = "thesis"

@@ -4,15 +4,13 @@
 elements of a C++ array, for CMake."""
 
 import json
-import sys
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-FILE = Path(__file__).resolve().parent / "plot_styles.toml"
-sys.path.insert(0, str(FILE.parent.parent / "synth"))
+from dtof_synth import readouts
 
-from dtof_synth import readouts  # noqa: E402
+FILE = Path(__file__).resolve().parent / "plot_styles.toml"
 
 
 @dataclass(frozen=True)

@@ -17,14 +17,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+import plot_style
+from dtof_synth import rival_area
 from figures.small import is_small
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "synth"))
-
-import plot_style  # noqa: E402
-from dtof_synth import rival_area  # noqa: E402
-
 AREA = ROOT / "reports" / "area.csv"
 WIDTH, HEIGHT = 1000, 640
 LEFT, RIGHT, TOP, BOTTOM = 75, 330, 45, 60

@@ -4,7 +4,8 @@ names, and returns a line for each violation."""
 
 import re
 
-_COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"", re.DOTALL)
+from rtl_text import blank, without_comments
+
 _MODULE = re.compile(r"^module\s+(\w+)(.*?)\);\n(.*?)^endmodule", re.MULTILINE | re.DOTALL)
 _BODY = re.compile(r"^(?:module|package|interface)\b.*?^end(?:module|package|interface)", re.MULTILINE | re.DOTALL)
 _DIMENSION = r"(?:\[[^;=]*?\]\s*)?"
@@ -17,15 +18,6 @@ _APART = re.compile(r"^ *(?:function|task)\b.*?^ *end(?:function|task)|^ *`defin
 _ELSEWHERE = r"(?<![.\w:$`'])"
 
 
-def _without_comments(text: str) -> str:
-    """The text with blanks in place of comments and strings; lines and columns stay."""
-    return _COMMENT.sub(_blank, text)
-
-
-def _blank(found: re.Match[str]) -> str:
-    return re.sub(r"[^\n]", " ", found.group())
-
-
 def _line(text: str, place: int) -> int:
     return text.count("\n", 0, place) + 1
 
@@ -35,7 +27,7 @@ def declared_before_use(sources: dict[str, str]) -> list[str]:
     them."""
     failures = []
     for name, text in sources.items():
-        code = _APART.sub(_blank, _without_comments(text))
+        code = _APART.sub(blank, without_comments(text, strings=False))
         for module in _MODULE.finditer(code):
             first: dict[str, int] = {}
             for found in _DECLARED.finditer(code, module.start(3), module.end(3)):
@@ -53,7 +45,7 @@ def readable_headers(sources: dict[str, str]) -> list[str]:
     """A module's parameters and ports stand in its own file."""
     failures = []
     for name, text in sources.items():
-        code = _COMMENT.sub(lambda found: found.group() if found.group().startswith('"') else _blank(found), text)
+        code = without_comments(text)
         for module in _MODULE.finditer(code):
             for found in re.finditer(r'`include\s+("[^"]*")', module[2]):
                 failures.append(f"{name}:{_line(code, module.start(2) + found.start())}: the header of {module[1]} includes {found[1]}")
@@ -64,7 +56,7 @@ def no_shared_types(sources: dict[str, str]) -> list[str]:
     """Uses of members of a type that is declared in no module and no package, at which Yosys 0.41 to 0.52 stop."""
     failures = []
     for name, text in sources.items():
-        code = _BODY.sub(_blank, _without_comments(text))
+        code = _BODY.sub(blank, without_comments(text, strings=False))
         failures += [f"{name}:{_line(code, found.start())}: a type outside of modules and packages"
                      for found in re.finditer(r"^\s*typedef\b", code, re.MULTILINE)]  # fmt: skip
     return failures

@@ -11,12 +11,10 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from dtof_synth.configuration import Configuration, load
+
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
-sys.path.insert(0, str(ROOT / "synth"))
-
-from dtof_synth.configuration import Configuration, load  # noqa: E402
-
 COMMANDS = HDL / "pool" / "dtof_pool_pkg.sv"
 PAGE = ROOT / "docs" / "reference" / "blocks" / "pool_control.md"
 BEGIN = "<!-- schedule: written by scripts/schedule.py -->\n"

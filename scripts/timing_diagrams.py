@@ -16,6 +16,9 @@ from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
 
+from dtof_synth import readouts
+from dtof_synth.errors import FlowError
+
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 FOLDER = "docs/user/timing"
@@ -25,10 +28,6 @@ END = "<!-- end of frame clocks -->\n"
 BENCH = "timing_bench"
 BUFFER = "u_subsystem.u_line_buffer"
 FRAME = {"COLUMNS": 8, "ROWS": 16, "ACQUISITIONS": 64}
-sys.path.insert(0, str(ROOT / "synth"))
-
-from dtof_synth import readouts  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
 
 
 @dataclass(frozen=True)

@@ -13,18 +13,16 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+import plot_style
+from dtof_synth import growth
+from dtof_synth.configuration import load
+from dtof_synth.goals import ARRAY_MM2
 from figures.small import is_small, written_root
 
 ROOT = Path(__file__).resolve().parent.parent
 REPORTS = ROOT / "reports"
 WRITTEN = written_root(ROOT) / "reports"
 BUILD = written_root(ROOT) / "build" / "trade"
-sys.path.insert(0, str(ROOT / "synth"))
-
-import plot_style  # noqa: E402
-from dtof_synth import growth  # noqa: E402
-from dtof_synth.configuration import load  # noqa: E402
-from dtof_synth.goals import ARRAY_MM2  # noqa: E402
 
 # 64ths of the frame: coarse, track; the rest is the pointer phase.
 SCHEDULES = ((18, 20), (16, 20), (16, 16), (14, 24), (14, 20), (14, 16), (12, 24), (12, 20), (12, 16), (10, 20))

@@ -10,13 +10,10 @@ import sys
 import textwrap
 from pathlib import Path
 
+from dtof_synth.configuration import Configuration, load
 from figures import store
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "synth"))
-
-from dtof_synth.configuration import Configuration, load  # noqa: E402
-
 BEGIN = "<!-- results: written by scripts/update_readme.py -->\n"
 END = "<!-- end of results -->"
 NONE = "-"  # not measured

@@ -8,15 +8,12 @@ import csv
 import gzip
 import io
 import re
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "synth"))
+from dtof_synth.configuration import Configuration, load
 
-from dtof_synth.configuration import Configuration, load  # noqa: E402
-
-from .store import Figure  # noqa: E402
+from .store import Figure
 
 Figures = dict[str, Figure]
 

@@ -5,24 +5,20 @@ import queue
 import re
 import shutil
 import subprocess
-import sys
 import time
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from dtof_synth import simulation
+from dtof_synth.configuration import load
+from dtof_synth.errors import FlowError
 from mutation import equivalence, progress, remembered, rtl_operators
 from mutation.mutant import Mutant, Selection
 from mutation.verdict import MutationError, Verdict
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-sys.path.insert(0, str(ROOT / "synth"))
-
-from dtof_synth import simulation  # noqa: E402
-from dtof_synth.configuration import load  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
-
 PATTERNS = ("common", "thesis", "pool")
 BENCHES = "synth/simulation"
 # Icarus Verilog 11 waits for more signals than needed.

@@ -2,15 +2,11 @@
 """The main job's figures: accuracy of the frame beside measured area, power and memory (reports/figures.json)."""
 
 import csv
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from dtof_synth.configuration import load
 from figures import store
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "synth"))
-
-from dtof_synth.configuration import load  # noqa: E402
 
 NOT_MADE = "-"
 

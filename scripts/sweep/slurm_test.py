@@ -12,12 +12,10 @@ import time
 import unittest
 from pathlib import Path
 
+import plan
+from single_node_slurm import CannotStart, SingleNodeSlurm
+
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-
-import plan  # noqa: E402
-from single_node_slurm import CannotStart, SingleNodeSlurm  # noqa: E402
-
 ROOT = HERE.parent.parent
 SWEEP = """\
 name = "slurm_test"

@@ -15,12 +15,10 @@ import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+import merge
+import plan
+
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-
-import merge  # noqa: E402
-import plan  # noqa: E402
-
 ROOT = HERE.parent.parent
 SUBMITTED_AT_ONCE = 100  # by a cluster's profile
 PROGRESS = re.compile(r"\d+ of \d+ steps .* done")

@@ -2,18 +2,16 @@
 """scripts/cases.py, and the quick ones of the cases themselves."""
 
 import io
-import sys
 import tempfile
 import unittest
 from contextlib import redirect_stdout
 from pathlib import Path
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+import case_tools
+import cases
 
-import case_tools  # noqa: E402
-import cases  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def run(*arguments: str) -> tuple[int, str]:

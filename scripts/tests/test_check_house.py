@@ -2,14 +2,11 @@
 """The house's rules on small trees, with faults planted."""
 
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-
-import check_house  # noqa: E402
+import check_house
 
 FILES = {
     "models/dtof/core/CMakeLists.txt": "dtof_library(core\n  SOURCES a.cpp\n  DEPENDS fmt::fmt)\n",
@@ -61,7 +58,17 @@ class House(unittest.TestCase):
         self.write("scripts/written.py", "# Written by scripts/generate.py\n" + "GUARD = 1\n" * 600)
         self.write("hdl/a.sv", "parameter int GUARD = 1;\n")
         self.assertEqual(check_house.counts(self.root, check_house.listed(self.root)),
-                         {"files_above_500_lines": 1, "functions_above_80_lines": 2, "files_that_name_GUARD": 1})
+                         {"files_above_500_lines": 1, "functions_above_80_lines": 2, "files_that_name_GUARD": 1, "edits_of_sys_path": 0})
+
+    def test_edits_of_sys_path(self) -> None:
+        for line, edits in (("sys.path.insert(0, 'a')", 1), ("sys.path[:0] = ['a']", 1), ("sys.path += ['a']", 1), ("sys.path = []", 1),
+                            ("import sys; " + "sys.path.append('a')", 1), ("if a:\n    sys.path.append('a')", 1),
+                            ("print(sys.path)", 0), ("names = sys.path[1:]", 0), ("# sys.path.append('a')", 0), ("sys.path == []", 0)):
+            for name in ("scripts/a.py", "scripts/sweep/Snakefile"):
+                with self.subTest(line=line, name=name):
+                    self.write(name, line + "\n")
+                    self.assertEqual(check_house.counts(self.root, check_house.listed(self.root))["edits_of_sys_path"], edits)
+                    (self.root / name).unlink()
 
     def test_a_ratchet_holds_both_ways(self) -> None:
         self.assertEqual(check_house.ratchets({"x": 3}, {"x": 3}), [])

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sentences that the lint refuses."""
 
-import sys
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+import check_language
 
-import check_language  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class Language(unittest.TestCase):

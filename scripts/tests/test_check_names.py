@@ -2,16 +2,13 @@
 """The RTL's names, and the RTL beside a user's modules of the names that it had without its prefix."""
 
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+import check_names
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import check_names  # noqa: E402
-
 HDL = ROOT / "hdl"
 
 
@@ -33,6 +30,8 @@ class Names(unittest.TestCase):
         for text, name in (("typedef struct packed {\n  logic a;\n} command_t;\n", "command_t"), ("typedef logic [3:0] nibble_t;\n", "nibble_t")):
             self.assertEqual(check_names.names(text + "module a;\n  typedef logic b;\nendmodule\n")[0][1], name)
         self.assertEqual(check_names.names("// module controller\nmodule a ();\n  typedef logic b;\nendmodule\n"), [(2, "a")])
+        self.assertEqual(check_names.names('`define DTOF_BEGIN "/*"\nmodule a ();\nendmodule\n`define DTOF_END "*/"\n'),
+                         [(1, "DTOF_BEGIN"), (2, "a"), (4, "DTOF_END")])
 
     def test_a_name_and_a_file_without_the_prefix_are_errors(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

@@ -260,10 +260,9 @@ class List(Project):
 MEASURE = """\
 import sys
 from pathlib import Path
-sys.path.insert(0, sys.argv[1])
 from figures import reports, staleness
 from figures.source_tree import SourceTree
-name = sys.argv[2]
+name = sys.argv[1]
 root = Path.cwd()
 with open("log.txt", "a") as log:
     log.write(name + " ")
@@ -285,7 +284,7 @@ class Commands(Project):
         self.write("measure.py", MEASURE)
         text = LIST
         for target, name in (("synth", "area"), ("pareto", "pareto")):
-            text = text.replace(f'"make {target}"', f'"{sys.executable} measure.py {ROOT / "scripts"} {name}"')
+            text = text.replace(f'"make {target}"', f'"PYTHONPATH={ROOT / "scripts"} {sys.executable} measure.py {name}"')
         self.write("reports/reports.toml", text)
         self.write("README.md", "text\n")
         self.commit()

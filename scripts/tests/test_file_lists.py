@@ -5,20 +5,17 @@ copied to a folder, and the target's tool reads them there."""
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 import yaml
 
+import file_lists
+from dtof_synth.errors import FlowError
+
 ROOT = Path(__file__).resolve().parents[2]
 HDL = ROOT / "hdl"
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
-
-import file_lists  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
-
 CORE = yaml.safe_load((ROOT / "dtof.core").read_text(encoding="utf-8").removeprefix("CAPI=2:\n"))
 BENDER = yaml.safe_load((ROOT / "Bender.yml").read_text(encoding="utf-8"))
 CONDITIONAL = re.compile(r"(!?)(\w+)\? \((.+)\)")

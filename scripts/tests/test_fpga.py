@@ -1,18 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
+import fpga
+from dtof_synth.errors import FlowError
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
-
-import fpga  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
-
 REPORT = {"utilization": {"ICESTORM_LC": {"used": 3762, "available": 7680}, "ICESTORM_RAM": {"used": 30, "available": 32}},
           "fmax": {"clk_i": {"achieved": 68.16, "constraint": 12.0}}}  # fmt: skip
 ICETIME = "Total number of logic levels: 7\nTotal path delay: 16.00 ns (62.50 MHz)\n"

@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+import fpga_check
+from fpga_check import Counts
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
-
-import fpga_check  # noqa: E402
-from fpga_check import Counts  # noqa: E402
-
 STATISTICS = """Number of cells:               1862
      CCU2C                         173
      DP16KD                          3

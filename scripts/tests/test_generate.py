@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 import re
-import sys
 import unittest
 from pathlib import Path
 
+import generate
+from dtof_synth import readouts
+from dtof_synth.errors import FlowError
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
-
-import generate  # noqa: E402
-from dtof_synth import readouts  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
-
 FIRST_PHOTON = (ROOT / "docs/user/adding_a_readout/readouts.toml").read_text(encoding="utf-8")
 TEXT = readouts.PATH.read_text(encoding="utf-8").replace(FIRST_PHOTON, "")  # make test-adding adds it
 

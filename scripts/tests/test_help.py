@@ -3,18 +3,15 @@
 
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
+import help as targets_help
+from figures import reports
+from page.commands import commands, targets
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import help as targets_help  # noqa: E402
-from figures import reports  # noqa: E402
-from page.commands import commands, targets  # noqa: E402
-
 MAKEFILE = """# make sim        the main job
 # make synth      area of every configuration
 .PHONY: frames search sim synth inner

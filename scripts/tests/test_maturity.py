@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stages of blocks in a small tree."""
 
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+import maturity
 
-import maturity  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class Stages(unittest.TestCase):

@@ -3,7 +3,6 @@
 
 `make playground-test` compares the models' module with `dtof frame`; it needs emscripten, and this test does not."""
 
-import importlib.util
 import io
 import json
 import tempfile
@@ -11,10 +10,10 @@ import time
 import unittest
 import zlib
 from pathlib import Path
-from types import ModuleType
 
 import numpy
 
+import playground_page
 from page.site import Site
 from tests.browser import Browser, missing
 
@@ -79,27 +78,17 @@ const createModels = async () => {
 """
 
 
-def builder() -> ModuleType:
-    path = ROOT / "app" / "playground" / "page" / "build_page.py"
-    spec = importlib.util.spec_from_file_location("build_page", path)
-    assert spec and spec.loader
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 class Building(unittest.TestCase):
     def test_its_parts_are_where_it_looks(self) -> None:
-        module = builder()
-        self.assertEqual(module.ROOT, ROOT)
-        text = module.page("// the module")
+        self.assertEqual(playground_page.ROOT, ROOT)
+        text = playground_page.page("// the module")
         for mark in ("/*STYLE*/", "/*COST*/", "/*PAGE*/", "/*WORKER*/"):
             self.assertNotIn(mark, text)
         self.assertIn("// the module", text)
 
     def test_a_module_that_would_end_its_script_is_refused(self) -> None:
         with self.assertRaises(SystemExit):
-            builder().page("'</script>'")
+            playground_page.page("'</script>'")
 
     def test_the_start_page_leads_to_it(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
@@ -109,7 +98,7 @@ class Building(unittest.TestCase):
             for there in (False, True):
                 if there:
                     (root / "build/playground").mkdir(parents=True)
-                    (root / "build/playground/index.html").write_text(builder().page("// the module"), encoding="utf-8")
+                    (root / "build/playground/index.html").write_text(playground_page.page("// the module"), encoding="utf-8")
                 wrong = Site(root, root / "out").write()
                 self.assertEqual([line for line in wrong if "playground" in line], [])
                 self.assertEqual((root / "out/playground.html").is_file(), there)
@@ -128,7 +117,7 @@ class InTheBrowser(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.page = Path(folder.name) / "index.html"
-        cls.page.write_text(builder().page(STAND_IN), encoding="utf-8")
+        cls.page.write_text(playground_page.page(STAND_IN), encoding="utf-8")
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.__exit__)
 

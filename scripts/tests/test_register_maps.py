@@ -6,18 +6,15 @@ import importlib.util
 import re
 import shutil
 import subprocess
-import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import NamedTuple
 
+import register_maps
+import registers
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
-
-import register_maps  # noqa: E402
-import registers  # noqa: E402
-
 SCHEMAS = Path(__file__).parent / "schemas"
 MAPS = ROOT / "driver/maps"
 RDL, IPXACT, SVD = (MAPS / f"dtof_subsystem.{suffix}" for suffix in ("rdl", "ipxact.xml", "svd"))

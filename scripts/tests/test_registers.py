@@ -1,15 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 import re
-import sys
 import unittest
 from pathlib import Path
 
+import registers
+from dtof_synth.errors import FlowError
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
-
-import registers  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
-
 TEXT = registers.PATH.read_text(encoding="utf-8")
 SMALL = """
 id = 0x1234

@@ -2,15 +2,13 @@
 """slang, where it is installed, refuses what other tools take."""
 
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+import slang
 
-import slang  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 
 @unittest.skipUnless(slang.is_installed(), "slang is not installed: make lint-slang installs it")

@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 import subprocess
-import sys
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
+import timing_diagrams
+from dtof_synth.errors import FlowError
+from timing_diagrams import Diagram, Lane
 
-import timing_diagrams  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
-from timing_diagrams import Diagram, Lane  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 # Three rising edges; `a` and `data` change behind the first one, `a` falls behind the second.
 VCD = """$scope module timing_bench $end

@@ -8,12 +8,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import try_targets
+from page.commands import targets
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import try_targets  # noqa: E402
-from page.commands import targets  # noqa: E402
-
 MAKEFILE = """.PHONY: first second written slow
 first:
 \t@mkdir -p build && echo $(SMALL) > build/first && echo run >> ../ran

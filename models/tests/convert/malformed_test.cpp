@@ -55,8 +55,8 @@ class MalformedTest : public test::IoTest {
          {std::tuple{"TTResultFormat_TTTRRecType", 0x10000008U, std::uint64_t{0x01010304}},
           {"MeasDesc_Resolution", 0x20000008U, std::bit_cast<std::uint64_t>(1e-12)},
           {"Header_End", 0xFFFF0008U, std::uint64_t{0}}}) {
-      std::string tag(48, '\0');
-      tag.replace(0, std::string_view(name).size(), name);
+      std::string tag = name;
+      tag.resize(48);
       std::memcpy(&tag[36], &type, sizeof type);
       std::memcpy(&tag[40], &value, sizeof value);
       file += tag;

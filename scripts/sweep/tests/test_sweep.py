@@ -10,15 +10,13 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-SWEEP = ROOT / "scripts" / "sweep"
-sys.path[:0] = [str(SWEEP), str(SWEEP / "slurm")]
+import merge
+import plan
+import run_batch
+from slurm import job_status
 
-import job_status  # noqa: E402
-import merge  # noqa: E402
-import plan  # noqa: E402
-import run_batch  # noqa: E402
-
+SWEEP = Path(__file__).resolve().parent.parent
+ROOT = SWEEP.parent.parent
 DESCRIPTION = """\
 name = "small"
 command = "/usr/bin/python3 program.py {kind} {light} {seed} {out}"

@@ -10,16 +10,14 @@ import json
 import sys
 from pathlib import Path
 
-PARTS = Path(__file__).resolve().parent
-ROOT = PARTS.parent.parent.parent
+import plot_style
+from dtof_synth.configuration import load
+from figures import store
+
+ROOT = Path(__file__).resolve().parent.parent
+PARTS = ROOT / "app" / "playground" / "page"
 OUT = ROOT / "build" / "playground"
 MODULE = OUT / "cmake" / "bin" / "playground_module.js"
-sys.path[:0] = [str(ROOT / "synth"), str(ROOT / "scripts")]
-
-import plot_style  # noqa: E402
-from figures import store  # noqa: E402
-from dtof_synth.configuration import load  # noqa: E402
-
 SCRIPTS = ("page.js", "compare.js", "pixel.js", "files.js", "begin.js")  # of the page, in this order
 THESIS_PIXELS = 32000
 
