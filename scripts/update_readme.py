@@ -68,8 +68,10 @@ class Results:
         """Scene on which the table's accuracy was measured, from the page's line with its name."""
         page = (self.root / "reports" / ("frames.md" if self.sensors else "frame/summary.md")).read_text(encoding="utf-8")
         scene = next(line for line in page.splitlines() if line.startswith("Scene "))
-        return (f"\"Pixels off by > 3 %\" have a relative error above 3 %. {scene.removesuffix('.')}. Each read-out's look-up table, "
-                "which is measured on flat targets, corrects the distances.")
+        return ("\"Pixels off by > 3 %\" have a relative error above 3 %. Each read-out's look-up table, which is measured on flat targets, "
+                f"has corrected the distances. {scene.removesuffix('.')}. The room has a sphere and boxes in front of walls, 0.8 to 5 m away. "
+                "An acquisition is one laser pulse. Signal events are detected laser photons of a pixel whose target is R metres away. Models, "
+                "exact photons: the C++ models read photons of the exact photon model.")
 
     def notes(self) -> list[str]:
         """What the columns of the table mean, and how their figures were measured."""
