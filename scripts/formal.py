@@ -42,18 +42,20 @@ hierarchy -check -top {harness}
 prep -flatten -top {harness}
 expose -evert t:arbitrary_bit
 memory_map
-chformal -early
-async2sync
+{registers}
 dffunmap
 techmap
 opt -full -nodffe -nosdff
-dfflegalize -cell $_DFF_P_ 01
+{legalize}
 opt -fast -nodffe -nosdff
 aigmap
 check -assert
 write_rtlil model.il
 write_aiger -I -B -L -zinit -symbols -map model.aim model.aig
 """
+# With two clocks each clock edge is a step of the model, and a clock an input like others.
+ONE_CLOCK = {"registers": "chformal -early\nasync2sync", "legalize": "dfflegalize -cell $_DFF_P_ 01"}
+TWO_CLOCKS = {"registers": "clk2fflogic", "legalize": ""}
 SIMULATE_SCRIPT = """
 read_rtlil model.il
 sim -q -r counterexample.aiw -map model.aim -vcd counterexample.vcd -clock clk_i
@@ -89,6 +91,7 @@ class Proof:
     goal: str = ""  # what is reached in a run of its own
     goal_parameters: dict[str, int] | None = None
     quick: bool = False
+    clocks: int = 1
     timeout: int = 240  # seconds of processor time a tool may take
 
 
@@ -152,10 +155,11 @@ def load_proofs() -> list[Proof]:
 
 
 def design_files() -> list[Path]:
-    """RTL of the file list, with SRAM models for proofs."""
+    """RTL of the file list, with the models of SRAMs and synchronisers for proofs."""
     lines = (HDL / "dtof.f").read_text().splitlines()
     files = [HDL / line for line in lines if line.endswith(".sv") and not line.startswith(("//", "technology/"))]
-    return files + [FORMAL / "dtof_sram_1r1w.sv", FORMAL / "dtof_sram_1rw.sv", FORMAL / "arbitrary_value.sv"]
+    stand_ins = sorted(FORMAL.glob("dtof_*.sv"))
+    return [file for file in files if file.name not in {one.name for one in stand_ins}] + [*stand_ins, FORMAL / "arbitrary_value.sv"]
 
 
 def needed_files(harness: Path) -> list[Path]:
@@ -234,7 +238,7 @@ def solve(job: Job) -> Outcome:
         files = with_bug(files, job.bug, folder)
     script = YOSYS_SCRIPT.format(
         defines="-DFIND_GOAL" if job.kind == "goal" else "", hdl=HDL, formal=FORMAL, sources=" ".join(map(str, files)),
-        harness=proof.harness,
+        harness=proof.harness, **(TWO_CLOCKS if proof.clocks == 2 else ONE_CLOCK),
         parameters="".join(f"chparam -set {name} {value} {proof.harness}; " for name, value in job.parameters.items()),
     )
     unbounded = job.kind == "prove" and proof.frames is None
