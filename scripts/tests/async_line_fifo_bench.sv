@@ -129,9 +129,9 @@ module bench;
   end
   always @(posedge rst_n) skip = source_inside;
 
-  function automatic integer reset_time(input integer seed_is_drawn);
-    reset_time = 2 * RESET_CLOCKS * ((half_tdc > half_read) ? half_tdc : half_read) + 2 + 2 * drawn(50);
-  endfunction
+  task automatic wait_in_reset;
+    #(2 * RESET_CLOCKS * ((half_tdc > half_read) ? half_tdc : half_read) + 2 + 2 * drawn(50));
+  endtask
 
   task automatic wait_slow(input integer clocks);
     repeat (clocks) begin
@@ -167,14 +167,16 @@ module bench;
         #(2 * drawn(half_read)) forever #half_read clk = !clk;
       end
       begin
-        #1 #(reset_time(0) + first * 500) rst_tdc_n = 1'b1;
+        #(1 + first * 500) wait_in_reset;
+        rst_tdc_n = 1'b1;
       end
       begin
-        #1 #(reset_time(0) + (1 - first) * 500) rst_n = 1'b1;
+        #(1 + (1 - first) * 500) wait_in_reset;
+        rst_n = 1'b1;
       end
       begin
         wait (rst_tdc_n && rst_n && s_tready);
-        from_clock = slow_clocks;
+        #1 from_clock = slow_clocks;
         if (resets != 0) begin
           while (sent < lines) begin
             #(2 * drawn(resets) + 2);
@@ -182,18 +184,21 @@ module bench;
               0, 1: begin
                 tdc_resets = tdc_resets + 1;
                 rst_tdc_n = 1'b0;
-                #(reset_time(0)) rst_tdc_n = 1'b1;
+                wait_in_reset;
+                rst_tdc_n = 1'b1;
               end
               2, 3: begin
                 read_resets = read_resets + 1;
                 rst_n = 1'b0;
-                #(reset_time(0)) rst_n = 1'b1;
+                wait_in_reset;
+                rst_n = 1'b1;
               end
               default: begin
                 rst_tdc_n = 1'b0;
                 if (drawn(2) == 0) #(2 * drawn(half_tdc));
                 rst_n = 1'b0;
-                #(reset_time(0)) rst_tdc_n = 1'b1;
+                wait_in_reset;
+                rst_tdc_n = 1'b1;
                 #(2 * drawn(half_tdc + half_read)) rst_n = 1'b1;
               end
             endcase
