@@ -10,8 +10,8 @@
 module async_line_fifo_properties #(
     parameter int WIDTH = 1,
     parameter int DEPTH = 2,
-    parameter int RESETS = 1,  // 0: only one reset, at the begin
-    parameter int RESET_CLOCKS = 4
+    parameter int TOGETHER = 0,     // 1: both clocks have an edge in every second step
+    parameter int RESET_CLOCKS = 4  // clocks of the other side in a reset
 ) (
     input logic             clk_i,        // of the replayed counterexample alone
     input logic             clk_tdc_i,
@@ -54,7 +54,8 @@ module async_line_fifo_properties #(
   );
 
   // The step before; flip-flops sample it at a rising edge in this step.
-  logic clk_tdc_q, clk_read_q, accepted_q, taken_q, valid_q;
+  logic clk_tdc_q = 1'b1, clk_read_q = 1'b1;
+  logic accepted_q = 1'b0, taken_q = 1'b0, valid_q = 1'b0;
   logic rst_tdc_q = 1'b0, rst_q = 1'b0;
   logic [WIDTH:0] in_q, out_q;
   logic tdc_edge, read_edge, push, pop;
@@ -75,13 +76,15 @@ module async_line_fifo_properties #(
   assign pop = read_edge && rst_q && taken_q;
 
   // Lines that must leave. One that was accepted in the TDCs' last clock before a reset need not.
-  logic pending_q, skip_q, source_inside_q, kept_inside_q, cut_q;
+  logic pending_q = 1'b0, kept_inside_q = 1'b0;
+  logic skip_q, source_inside_q;
   logic [WIDTH:0] pending_line_q;
   logic commit, cut, enter;
   logic [WIDTH:0] entering;
-  logic [3:0] inside_q, ahead_q;  // lines in the FIFO; in front of the watched one
-  logic end_q;                    // one of them ends an acquisition that a reset has cut
-  logic watching_q;
+  logic [3:0] inside_q = '0;  // lines in the FIFO
+  logic [3:0] ahead_q;        // lines in front of the watched one
+  logic end_q = 1'b0;         // one of them ends an acquisition that a reset has cut
+  logic watching_q = 1'b0;
   logic [WIDTH:0] watched_q;
 
   assign commit = tdc_edge && rst_tdc_q && pending_q;
@@ -123,9 +126,10 @@ module async_line_fifo_properties #(
   end
 
   // Clocks of the other side in a reset, and how long something has not come.
-  logic [2:0] tdc_reset_q = '0, reset_q = '0;
-  logic [2:0] late_q;
-  logic [4:0] closed_q;
+  // The first reset may be shorter.
+  logic [2:0] tdc_reset_q = 3'(RESET_CLOCKS - 1), reset_q = 3'(RESET_CLOCKS - 1);
+  logic [2:0] late_q = '0;
+  logic [4:0] closed_q = '0;
   logic tdc_ticked_q, read_ticked_q;
   always @($global_clock) begin
     tdc_reset_q <= rst_tdc_n ? '0 : (tdc_reset_q == 3'd7) ? tdc_reset_q : tdc_reset_q + 3'(read_edge);
@@ -145,7 +149,7 @@ module async_line_fifo_properties #(
 
   `ASSUME(m_tdc_reset, !rst_tdc_n || rst_tdc_q || 32'(tdc_reset_q) >= RESET_CLOCKS)
   `ASSUME(m_reset, !rst_n || rst_q || 32'(reset_q) >= RESET_CLOCKS)
-  `ASSUME(m_one_reset, RESETS != 0 || ((rst_tdc_n || !rst_tdc_q) && (rst_n || !rst_q)))
+  `ASSUME(m_together, TOGETHER == 0 || (clk_read_i != clk_read_q && clk_tdc_i == clk_read_i))
   `PROVE(a_depth, 32'(inside_q) + 32'(pending_q) <= DEPTH + 32'(end_q))
   `PROVE(a_there, !m_tvalid || inside_q != '0)
   `PROVE(a_line, !pop || !rst_n || !watching_q || ahead_q != '0 || out_q == watched_q)

@@ -27,7 +27,8 @@ from dtof_synth.errors import FlowError  # noqa: E402
 
 SIZE = slang.TOPS
 SUBSYSTEM = "dtof_subsystem"
-IN_FRONT = {"dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {}}  # what stands in front of it
+IN_FRONT = {"dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {},
+            "dtof_async_line_fifo": {"WIDTH": 12, "DEPTH": 2}}  # what stands in front of it
 DEMONSTRATOR = "demonstrator"  # an FPGA around it, in fpga/
 SOC = "soc"  # a chip around it, in examples/soc/
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"

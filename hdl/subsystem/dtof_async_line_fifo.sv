@@ -26,7 +26,7 @@
 //   R 2        m_tvalid_o, from the second synchroniser flip-flop; a taken line gives its place back in two R and two T
 // Latency: two clocks of clk_tdc_i and two of clk_i, one more of clk_i where a bit changes at its edge. A depth of eight lines passes a line
 // in each clock of the slower side.
-// Cost: DEPTH x (WIDTH + 1) flip-flops and a multiplexer of DEPTH lines, WIDTH OR gates; 7 (log2(DEPTH) + 1) + 14 flip-flops.
+// Cost: DEPTH x (WIDTH + 1) flip-flops and a multiplexer of DEPTH lines, WIDTH OR gates; 7 (log2(DEPTH) + 1) + 12 flip-flops.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -143,7 +143,7 @@ module dtof_async_line_fifo #(
 
   logic [POINTER_WIDTH-1:0] stored;
   logic [ADDR_WIDTH-1:0] read_address;
-  logic on, off_q, empty, quiet, take;
+  logic on, empty, take;
   logic open_q;  // the read-out has lines of an acquisition, and not its end
 
   dtof_synchroniser #(
@@ -177,18 +177,16 @@ module dtof_async_line_fifo #(
   );
 
   assign empty = (read_pointer == stored);
-  assign quiet = !on && off_q;  // the last pointer may arrive a clock after on
-  assign m_tvalid_o = reader_q[1] && (!empty || (reader_q == DRAINS && quiet && open_q));
+  // The last pointer may arrive a clock after on: drains begins a clock after on, too.
+  assign m_tvalid_o = reader_q[1] && (!empty || (reader_q == DRAINS && open_q));
   assign take = m_tvalid_o && m_tready_i;
   assign {m_tlast_o, m_tdata_o} = memory[read_address] | {(WIDTH + 1) {empty}};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       reader_q <= OFF;
-      off_q <= 1'b0;
       open_q <= 1'b0;
     end else begin
-      off_q <= !on;
       if (take) begin
         open_q <= !m_tlast_o;
       end
@@ -196,7 +194,7 @@ module dtof_async_line_fifo #(
         OFF: if (!on) reader_q <= WAITS;
         WAITS: if (on) reader_q <= LIVE;
         LIVE: if (!on) reader_q <= DRAINS;
-        default: if (quiet && empty && !open_q) reader_q <= OFF;
+        default: if (empty && !open_q) reader_q <= OFF;
       endcase
     end
   end
