@@ -45,8 +45,8 @@ def limits(output: str) -> dict[tuple[str, str], float]:
     found = {}
     for text in output.split("MODE max\n")[1].split("MODE min\n")[0].split("Startpoint: ")[1:]:
         ends = text.split(maxsplit=1)[0], re.findall(r"Endpoint: (\S+)", text)[0]
-        limit = re.search(r"(-?[\d.]+) +-?[\d.]+ +max_delay", text) or re.search(r"(-?[\d.]+) +-?[\d.]+ +clock \w+ \(rise edge\)\n(?!.*clock \w+ \(rise)", text, re.DOTALL)
-        found[ends] = float(limit.group(1)) if limit else -1.0
+        limit = re.findall(r"(-?[\d.]+) +-?[\d.]+ +max_delay", text) or re.findall(r"(-?[\d.]+) +-?[\d.]+ +clock \w+ \(rise edge\)", text)
+        found[ends] = float(limit[-1])
     return found
 
 
