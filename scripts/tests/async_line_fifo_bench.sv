@@ -145,7 +145,7 @@ module bench;
     wait_slow(1);
     slow_clocks = slow_clocks + 1;
     closed = (rst_n && rst_tdc_n && !s_tready && !m_tvalid) ? closed + 1 : 0;
-    if (closed > PATIENCE) fail("nothing moves");
+    if (closed > PATIENCE || slow_clocks > 20 * lines + 1000) fail("nothing moves");
   end
 
   integer first, from_clock;
