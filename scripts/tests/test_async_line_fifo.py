@@ -145,8 +145,8 @@ class AsyncLineFifo(unittest.TestCase):
     def found(self, changes: tuple[tuple[str, str, str], ...], uncertain: bool) -> str:
         """What the first of a few runs, with and without resets, says against changed RTL."""
         simulation = Simulation(self.folder, 4, uncertain, changes)
-        for seed, (resets, ratio) in enumerate(((resets, ratio) for resets in (600, 0) for ratio in RATIOS[::2]), 1):
-            verdict = simulation.run(seed=seed, half_tdc=ratio[0], half_read=ratio[1], lines=LINES, resets=resets,
+        for seed, (resets, ratio) in enumerate(((resets, ratio) for resets in (40, 0) for ratio in RATIOS[::2]), 1):
+            verdict = simulation.run(seed=seed, half_tdc=ratio[0], half_read=ratio[1], lines=LINES, resets=resets * max(ratio),
                                      window=window(ratio) if uncertain else 0)
             if not verdict.startswith("PASS"):
                 return verdict
