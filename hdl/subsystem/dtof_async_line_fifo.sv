@@ -23,7 +23,7 @@
 //   T 0        s_tvalid_i and s_tready_o: the line is written, the pointer steps
 //   T 1        the pointer is in shown_q
 //   R 0, R 1   the pointer is in the synchroniser
-//   R 2        m_tvalid_o, from the second synchroniser flip-flop; a taken line gives its place back in two R and two T
+//   R 2        m_tvalid_o; when the line is taken, its place is free two clocks of T later
 // Latency: two clocks of clk_tdc_i and two of clk_i, one more of clk_i where a bit changes at its edge. A depth of eight lines passes a line
 // in each clock of the slower side.
 // Cost: DEPTH x (WIDTH + 1) flip-flops and a multiplexer of DEPTH lines, WIDTH OR gates; 7 (log2(DEPTH) + 1) + 12 flip-flops.

@@ -88,7 +88,7 @@ class Simulation:
     def run(self, **options: int) -> str:
         """The verdict."""
         arguments = [f"+{name}={value}" for name, value in options.items()]
-        done = subprocess.run(["vvp", "-n", self.program, *arguments], capture_output=True, text=True, timeout=120)
+        done = subprocess.run(["vvp", "-n", self.program, *arguments], capture_output=True, text=True, timeout=600)
         return done.stdout.strip().splitlines()[-1] if done.stdout.strip() else "no output"
 
 
