@@ -84,4 +84,7 @@ subsystem/dtof_frame_control.sv
 subsystem/dtof_apb_registers.sv
 subsystem/dtof_axi_lite_to_apb.sv
 subsystem/dtof_reset_synchroniser.sv
+subsystem/dtof_synchroniser.sv
+subsystem/dtof_gray_pointer.sv
+subsystem/dtof_async_line_fifo.sv
 subsystem/dtof_subsystem.sv

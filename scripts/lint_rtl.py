@@ -25,7 +25,8 @@ ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 SIZE = slang.TOPS
 SUBSYSTEM = "dtof_subsystem"
-IN_FRONT = {"dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {}}  # what stands in front of it
+IN_FRONT = {"dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {},
+            "dtof_async_line_fifo": {"WIDTH": 12, "DEPTH": 2}}  # what stands in front of it
 DEMONSTRATOR = "demonstrator"  # an FPGA around it, in fpga/
 SOC = "soc"  # a chip around it, in examples/soc/
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"

@@ -17,8 +17,8 @@ FOLDER = "hdl/subsystem"
 TARGET = "subsystem_test"
 # Frames of 3,333 acquisitions and more say nothing about a subsystem that shorter ones do not.
 TESTS = "-*Long*"
-# A module that no Verilated subsystem contains; scripts/tests/test_reset_synchroniser.py simulates it.
-ELSEWHERE = ("dtof_reset_synchroniser.sv",)
+# Modules that no Verilated subsystem contains; scripts/tests/test_reset_synchroniser.py and test_async_line_fifo.py simulate them.
+ELSEWHERE = ("dtof_reset_synchroniser.sv", "dtof_synchroniser.sv", "dtof_gray_pointer.sv", "dtof_async_line_fifo.sv")
 TIMEOUT_FACTOR = 5  # of the time without a mutant, and ten seconds more; what runs longer hangs
 FAILED = re.compile(r"^\[  FAILED  \] (\S+?),? ", re.MULTILINE)
 
