@@ -173,11 +173,11 @@ class Finder:
         elif isinstance(node, ast.comprehension):
             for condition in node.ifs:
                 yield self.replaced("condition", condition, f"(not ({self.source(condition)}))")
-        elif isinstance(node, ast.Name):
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
             for other in other_names(node.id):
                 if other in self._names:
                     yield self.replaced("name", node, other)
-        elif isinstance(node, ast.Attribute):
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load):
             for other in other_names(node.attr):
                 if other in self._names:
                     begin, end = self.span(node)
