@@ -260,6 +260,53 @@ class Borders(WithLibrary):
         self.assertEqual(floorplan._registered_ports(module, {"DFF_X1", "TIE0_X1"}, {"BUF_X1"}), {"word_o"})
 
 
+class Spef(WithLibrary):
+    """SPEF of small nets, by hand: 2 ohm and 0.5 fF per um."""
+
+    def write(self, places: dict[str, float], port: bool = False) -> str:
+        cells = {"r": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 4}), **{name: cell("INV_X1", {"A": 3 if port else 4}, {"Y": 20 + index})
+                                                                      for index, name in enumerate(places)}}
+        cells["c.u_column"] = cell("a_column", {"clk_i": 2}, {})
+        ports = {"clk_i": {"direction": "input", "bits": [2]}, "told_i": {"direction": "input", "bits": [3]},
+                 "q_o": {"direction": "output", "bits": [4]}}
+        inner = {"attributes": {}, "netnames": {}, "ports": {"clk_i": {"direction": "input", "bits": [2]}},
+                 "cells": {"i": cell("INV_X1", {"A": 2}, {"Y": 3})}}
+        top = {"attributes": {"top": "1"}, "netnames": {"old": {"bits": [9]}}, "cells": cells, "ports": ports}
+        design = {"modules": {"a_column": inner, "the_array": top}}
+        plan = Floorplan(design, 1)
+        plan.places, plan.centre_um = {"r": 0.0, **places}, 0.0
+        return spef.write(design, plan, self.library, [Wire(2.0, 0.5)], {2})[0]
+
+    def test_a_net_and_its_port(self):
+        text = self.write({"a": 10.0, "b": 30.0}, port=True)
+        self.assertIn('*DESIGN "the_array"', text)
+        wire = self.library.wire_ff_per_sink  # at each input of a cell
+        body = text.split("*D_NET ")[1].splitlines()
+        self.assertEqual(body[:7], [f"told_i {15 + 3 * wire:.4f}", "*CONN", "*I r:D I", "*P told_i I", "*I a:A I", "*I b:A I", "*CAP"])
+        # Half of each piece of wire at either end: 0, 10 and 20 um.
+        self.assertEqual(body[7:11], [f"1 r:D {wire:.4f}", "2 told_i 2.5000", f"3 a:A {7.5 + wire:.4f}", f"4 b:A {5 + wire:.4f}"])
+        self.assertEqual(body[11:], ["*RES", "1 r:D told_i 0.0100", "2 told_i a:A 20.0000", "3 a:A b:A 40.0000", "*END"])
+
+    def test_the_driver_and_an_output_port(self):
+        body = self.write({"a": 30.0}).split("*D_NET ")[1].splitlines()
+        self.assertEqual((body[0].split()[0], body[2:5]), ("q_o", ["*P q_o O", "*I r:Q O", "*I a:A I"]))
+
+    def test_short_nets_are_left_to_the_wire_load(self):
+        for place, described in ((19.0, 0), (20.0, 1), (21.0, 1)):
+            self.assertEqual(self.write({"a": place}).count("*D_NET"), described, place)
+
+    def test_names_that_become_alike_are_told_apart(self):
+        design = {"modules": {"m": {"cells": {"a[1]": {}, "a_1_": {}, "a.1.": {}}}}}
+        self.assertEqual(spef.plain_names(design), {"m": {"a_1_": "a[1]", "a_1__": "a_1_", "a_1___": "a.1."}})
+        self.assertEqual(list(design["modules"]["m"]["cells"]), ["a_1_", "a_1__", "a_1___"])
+
+    def test_constants_are_no_nets(self):
+        design = array(2)
+        netlist.top(design)["cells"]["far"]["connections"]["D"] = ["0"]
+        pins = spef.Nets(design, Floorplan(design, 1), self.library).pins()
+        self.assertTrue(all(isinstance(bit, int) for bit in pins))
+
+
 class Wires(WithLibrary):
     def test_a_wire_has_the_resistance_and_capacitance_of_its_length(self):
         design = array(4)
