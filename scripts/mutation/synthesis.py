@@ -37,6 +37,7 @@ MODULES = (
 CONSTRAINTS = {"constraints/dtof.sdc": ("test_constraints",), "constraints/margins.sdc": ("test_constraints", "test_margins")}
 FILES = (*(f"{PACKAGE}/{name}.py" for name in MODULES), *CONSTRAINTS)
 BUILT = ("test_simulation",)  # needs the C++ build
+LONG = ("test_batch", "test_line_buffer")  # seconds: these judge their own files alone
 TIMEOUT_FACTOR = 5  # of the time without a mutant, and some seconds more; what runs longer hangs
 MORE_TIME_S = 10
 MEMORY = 4 << 30  # bytes of address space: a loop without end shall not take the machine's
@@ -68,7 +69,8 @@ def tests_of(file: str, tree: Path) -> list[str]:
         return list(CONSTRAINTS[file])
     stem = Path(file).stem
     own = "test_layout" if "/layout/" in file else f"test_{stem}"
-    found = {name for name, names in imports_of_tests(tree).items() if stem in names and name.startswith("test_") and name not in BUILT}
+    found = {name for name, names in imports_of_tests(tree).items()
+             if stem in names and name.startswith("test_") and name not in (*BUILT, *LONG)}  # fmt: skip
     return sorted(found | ({own} if own in imports_of_tests(tree) else set()), key=lambda name: (name != own, name))
 
 
