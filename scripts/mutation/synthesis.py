@@ -27,12 +27,13 @@ PACKAGE = "synth/dtof_synth"
 TESTS = "synth/tests"
 FLOW = ("synth", "constraints", "hdl", "models/dtof/design", "configurations.toml", "readouts.toml")
 TREE = (*FLOW, "reports", "scripts")
-# Modules from which figures, or judgements on them, come; neither commands, pages and pictures nor runs of the tools.
+# Modules from which figures, or judgements on them, come; neither commands, pages and pictures nor runs of the tools, nor what places
+# and repairs a layout, which design rules and a comparison of netlists judge.
 MODULES = (
     "activity", "area_parts", "batch", "budgets", "canonical", "cell_models", "clock_gating", "configuration", "corner_ratios", "endpoints",
     "estimate", "floorplan", "gates", "goals", "ihp130", "liberty", "library", "loads", "namings", "netlist", "part_costs", "power",
     "rival_area", "run", "same_logic", "scene_power", "spef", "sram_kit", "sram_model", "stand_in", "standard_cells", "statistics",
-    "technology", "timing", "verilog", "wide_words", "layout/block", "layout/pins", "layout/repair", "layout/results", "layout/wires",
+    "technology", "timing", "verilog", "wide_words", "layout/results", "layout/wires",
 )  # fmt: skip
 CONSTRAINTS = {"constraints/dtof.sdc": ("test_constraints",), "constraints/margins.sdc": ("test_constraints", "test_margins")}
 FILES = (*(f"{PACKAGE}/{name}.py" for name in MODULES), *CONSTRAINTS)

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import library, standard_cells, tools
+from dtof_synth import standard_cells, tools
 
 ROOT = Path(__file__).resolve().parents[2]
 PERIOD_NS = 3.0
