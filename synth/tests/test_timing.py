@@ -24,6 +24,7 @@ class Slacks(unittest.TestCase):
         self.assertEqual((found.slack, found.hold_slack, found.fast_slack, found.fmax_mhz), (0.1, 0.2, 0.05, 400.0))
         margin = report.margin()
         self.assertEqual((margin.slack, margin.hold_slack, margin.reset_slack), (0.1, 0.2, 0.3))
+        self.assertEqual((margin.start, margin.end), ("a", "b"))
 
     def test_a_corner_without_a_check_of_the_reset_is_refused(self):
         output = "DTOF_MARGIN_SLACK 0.1 0.2\nDTOF_MARGIN_PATH_MAX\nStartpoint: a\nEndpoint: b\n 0.1  slack (MET)\nDTOF_RESET\nDTOF_END\n"
