@@ -156,6 +156,18 @@ class Exceptions(unittest.TestCase):
                     gates.read(file)
 
 
+class NoReport(unittest.TestCase):
+    def test_a_report_without_goals_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "pool.md"
+            for text, message in ((None, "no section 'Goals'"), ("# Pool\n", "no section 'Goals'"), ("## Goals\n\nNone.\n", "no goal in the section"),
+                                  ("## Goals\n| goal | a |\n|---|---|\n| b |\n", "cannot read the goal")):
+                if text is not None:
+                    file.write_text(text, encoding="utf-8")
+                with self.assertRaisesRegex(FlowError, message):
+                    gates.measured(file)
+
+
 class Command(unittest.TestCase):
     """The status of `make synth`."""
 
