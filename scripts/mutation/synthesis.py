@@ -106,9 +106,11 @@ def run_tests(tests: Iterable[str], tree: Path, timeout_s: float | None) -> str 
     ) as process:
         try:
             output, _ = process.communicate(timeout=timeout_s)
-        except subprocess.TimeoutExpired:
+        except BaseException as error:  # too long, or interrupted
             os.killpg(process.pid, signal.SIGKILL)  # with the tools that it started
             process.communicate()
+            if not isinstance(error, subprocess.TimeoutExpired):
+                raise
             return "the tests hang"
     return None if process.returncode == 0 else killer(output.decode("utf-8", "replace"))
 
