@@ -23,7 +23,7 @@
 # make cases      every case that outsiders reported, of ../shared/cases (scripts/cases.mk)
 # make test-adding the worked example of docs/user/adding_a_readout.md, in a fresh clone (scripts/adding.mk)
 # make playground the C++ models in a page (scripts/playground.mk)
-# make mutate     small changes of RTL and models: which of them the tests notice (long)
+# make mutate     small changes of RTL, models and synthesis flow: which of them the tests notice (long)
 # make figures    measured figures into README.md and docs/; make stale, make reports: what is old, renewed (scripts/reports.mk)
 # make clean      remove build/
 ifneq ($(words $(CURDIR)),1)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# make mutate     small changes of RTL and C++ models, and which of them the tests notice (long): reports/mutants.md
-#                 SEED=2 other mutants; COUNT=50 so many of each language
+# make mutate     small changes of RTL, C++ models and synthesis flow, and which of them the tests notice (long): reports/mutants.md
+#                 SEED=2 other mutants; COUNT=50 so many of each language (of synthesis, of each file)
 .PHONY: mutate
 mutate: vectors
 	@scripts/reports.py begin mutants

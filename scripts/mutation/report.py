@@ -2,14 +2,43 @@
 """Writes the verdicts on the mutants: a page for people, a table for programs."""
 
 import csv
+import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from mutation.mutant import Mutant, one_line
 from mutation.verdict import STATES, MutationError, Verdict
 
 LEAST_KILLED = 0.95  # of the mutants that are not equivalent
+LEAST_KILLED_OF_FILE = {"synthesis": 0.90}  # parts that are judged file by file
+Z = 1.959964  # of a normal distribution's middle 95 %
+
+
+def least_killed(language: str) -> float:
+    return LEAST_KILLED_OF_FILE.get(language, LEAST_KILLED)
+
+
+def judged_together(language: str, verdicts: Sequence[Verdict]) -> dict[str, Sequence[Verdict]]:
+    """Verdicts by what has to reach the least share: the language or, for some, each file."""
+    return _by(verdicts, lambda file: file) if language in LEAST_KILLED_OF_FILE else {language: verdicts}
+
+
+def _by(verdicts: Sequence[Verdict], title: Callable[[str], str]) -> dict[str, Sequence[Verdict]]:
+    found: dict[str, list[Verdict]] = {}
+    for verdict in verdicts:
+        found.setdefault(title(verdict.mutant.file), []).append(verdict)
+    return dict(sorted(found.items()))
+
+
+def interval(killed: int, judged: int) -> tuple[float, float]:
+    """95 % confidence interval of the share killed among all mutants, from a drawn sample (Wilson)."""
+    if judged == 0:
+        return 0.0, 1.0
+    share, weight = killed / judged, Z**2 / judged
+    centre = (share + weight / 2) / (1 + weight)
+    half = math.sqrt(share * (1 - share) * weight + weight**2 / 4) / (1 + weight)
+    return max(0.0, centre - half), min(1.0, centre + half)
 
 
 def killed_share(verdicts: Sequence[Verdict]) -> float:
@@ -24,21 +53,20 @@ def unexplained(verdicts: Sequence[Verdict]) -> list[Verdict]:
 
 
 def summary(parts: Mapping[str, Sequence[Verdict]]) -> str:
-    """Table with a row per language, then a row per folder."""
-    lines = [f"| | mutants | {' | '.join(STATES)} | killed of the others |", f"|---|{'---:|' * (len(STATES) + 2)}"]
+    """Table with a row per language, then a row per folder, or per file for what is judged file by file."""
+    lines = [f"| | mutants | {' | '.join(STATES)} | killed of the others | 95 % interval |", f"|---|{'---:|' * (len(STATES) + 3)}"]
     for title, verdicts in parts.items():
         lines.append(_row(f"**{title}**", verdicts))
-        folders: dict[str, list[Verdict]] = {}
-        for verdict in verdicts:
-            folders.setdefault(str(Path(verdict.mutant.file).parent), []).append(verdict)
-        lines += [_row(folder, of_folder) for folder, of_folder in sorted(folders.items())]
+        rows = _by(verdicts, lambda file: file if title in LEAST_KILLED_OF_FILE else str(Path(file).parent))
+        lines += [_row(name, some) for name, some in rows.items()]
     return "\n".join(lines)
 
 
 def _row(title: str, verdicts: Sequence[Verdict]) -> str:
     states = Counter(verdict.state for verdict in verdicts)
     counts = " | ".join(str(states[state]) for state in STATES)
-    return f"| {title} | {len(verdicts)} | {counts} | {100 * killed_share(verdicts):.1f} % |"
+    low, high = interval(states["killed"], states["killed"] + states["survived"])
+    return f"| {title} | {len(verdicts)} | {counts} | {100 * killed_share(verdicts):.1f} % | {100 * low:.0f} to {100 * high:.0f} % |"
 
 
 def markdown(parts: Mapping[str, Sequence[Verdict]], seeds: Mapping[str, int]) -> str:
@@ -46,10 +74,12 @@ def markdown(parts: Mapping[str, Sequence[Verdict]], seeds: Mapping[str, int]) -
     sections = [
         "# Mutants",
         f"What `make mutate` found ({drawn}). A mutant is one small change of the code: another operator or constant, "
-        "a condition negated, a statement removed. A killed mutant makes a test fail, crash or hang; "
+        "a condition negated, a statement removed, one of two names that are easily mixed up. A killed mutant makes a test "
+        "fail, crash or hang; "
         "[mutants.csv](mutants.csv) names it. A proved equivalent one compiles to the same machine code or circuit, or "
         "Yosys and ABC prove that no input tells it from the original; an argued equivalent one has its argument "
-        "below.",
+        "below. The interval is Wilson's for a drawn sample. What must be killed: "
+        f"{100 * LEAST_KILLED:.0f} % of a language, {100 * LEAST_KILLED_OF_FILE['synthesis']:.0f} % in each file of the synthesis flow.",
         summary(parts),
     ]
     for state in ("survived", "argued equivalent", "proved equivalent"):

@@ -6,7 +6,19 @@ from pathlib import Path
 from unittest import mock
 
 import mutate
-from mutation import cpp, cpp_operators, equivalence, remembered, report, rtl, rtl_operators, subsystem
+from mutation import (
+    cpp,
+    cpp_operators,
+    equivalence,
+    python_operators,
+    remembered,
+    report,
+    rtl,
+    rtl_operators,
+    sdc_operators,
+    subsystem,
+    synthesis,
+)
 from mutation.explained import Explanation, explain
 from mutation.mutant import Mutant, Selection, draw
 from mutation.schemata import with_mutants
@@ -54,6 +66,32 @@ module sample #(
 endmodule
 """
 
+PYTHON_SAMPLE = """# SPDX-License-Identifier: Apache-2.0
+\"\"\"Not a < b.\"\"\"
+import math
+LIMIT = 0.5
+SLOW, TYPICAL = "slow", "typical"
+def sample(a: int, b: int = 2) -> int:
+    if a < b and b not in (0, 3):  # a + b
+        a += max(a,  # - or +
+                 b) - 1
+    if a == 7:
+        raise ValueError(f"{a - 1} < " + "5")
+    values.sort(reverse=True)
+    corner = SLOW if a else "typical"
+    return [v // 2 for v in values if not v.setup > v.hold]
+if __name__ == "__main__":
+    sample(1, 2)
+"""
+
+SDC_SAMPLE = """# 0.30 of the period
+set share 0.30
+foreach port [all_inputs] {
+  if {$port ne "clk_i"} { set_input_delay [expr {$share * $period}] $port }
+}
+set_clock_uncertainty -setup 0.1 [get_clocks clk]
+"""
+
 
 def changes(mutants: list[Mutant]) -> set[str]:
     return {mutant.change for mutant in mutants}
@@ -85,6 +123,39 @@ class Operators(unittest.TestCase):
     def test_rtl_leaves_headers_widths_and_checks_alone(self):
         lines = {mutant.line for mutant in rtl_operators.mutants("sample.sv", RTL_SAMPLE)}
         self.assertFalse(lines & {3, 5, 6, 9, 11, 13, 14}, lines)
+
+    def test_python(self):
+        mutants = python_operators.mutants("sample.py", PYTHON_SAMPLE)
+        found = changes(mutants)
+        for change in ("0.5 -> (0.5 * 1.1)", "0.5 -> (0.5 / 2)", "2 -> (2 + 1)", "a < b -> a <= b",
+                       "a < b and b not in (0, 3) -> a < b or b not in (0, 3)",
+                       "b not in (0, 3) -> b in (0, 3)", "a == 7 -> not (a == 7)", "max -> min", "values.sort(reverse=True) -> pass",
+                       "True -> False",
+                       "max(a, # - or + b) - 1 -> max(a, # - or + b) + 1", "SLOW -> TYPICAL", '"typical" -> "slow"',
+                       'SLOW if a else "typical" -> ("typical") if (a) else (SLOW)', "v // 2 -> v * 2", "v.setup -> v.hold",
+                       "not v.setup > v.hold -> (v.setup > v.hold)", "not v.setup > v.hold -> (not (not v.setup > v.hold))",
+                       'raise ValueError(f"{a - 1} < " + "5") -> pass'):  # fmt: skip
+            self.assertIn(change, found)
+        for mutant in mutants:
+            compile(PYTHON_SAMPLE[: mutant.begin] + mutant.mutated + PYTHON_SAMPLE[mutant.end :], mutant.change, "exec")
+
+    def test_python_leaves_documentation_messages_types_and_imports_alone(self):
+        mutants = python_operators.mutants("sample.py", PYTHON_SAMPLE)
+        self.assertFalse({mutant.line for mutant in mutants} & {1, 2, 3, 15, 16})
+        self.assertEqual({mutant.operator for mutant in mutants if mutant.line == 11}, {"statement"})
+
+    def test_names_have_partners_as_they_are_written(self):
+        self.assertEqual(python_operators.other_names("hold_slack"), ["setup_slack"])
+        self.assertEqual(python_operators.other_names("SETUP_NS"), ["HOLD_NS"])
+        self.assertEqual(set(python_operators.other_names("slow")), {"typical", "fast"})
+        self.assertEqual(python_operators.other_names("slower"), [])
+
+    def test_constraints(self):
+        found = {(mutant.line, mutant.change) for mutant in sdc_operators.mutants("sample.sdc", SDC_SAMPLE)}
+        self.assertEqual(found, {
+            (2, "0.30 -> 0.33"), (2, "0.30 -> 0.15"), (3, "all_inputs -> all_outputs"), (4, "set_input_delay -> set_output_delay"),
+            (4, "set_input_delay [expr {$share * $period}] $port -> list"), (6, "-setup -> -hold"), (6, "0.1 -> 0.11"), (6, "0.1 -> 0.05"),
+            (6, "set_clock_uncertainty -setup 0.1 [get_clocks clk] -> list")})  # fmt: skip
 
 
 class Drawing(unittest.TestCase):
@@ -246,7 +317,7 @@ class ReportOfRtl(unittest.TestCase):
 
 class Remembered(unittest.TestCase):
     def test_every_one_is_still_in_its_source(self):
-        for folder in ("models", "hdl"):
+        for folder in ("models", "hdl", synthesis.PACKAGE):
             self.assertTrue(remembered.load(mutate.ROOT, folder), folder)
 
 
@@ -279,6 +350,93 @@ class Subsystem(unittest.TestCase):
                 self.assertEqual(build.judge(mutant).state, state)
             self.assertEqual(seen, ["assign a = c;\n"] * 2)
             self.assertEqual((tree / mutant.file).read_text(), "assign a = b;\n")
+
+
+FLOW = """def both(a, b):
+    return a + b
+def twice(a):
+    return a * 2
+def down(a):
+    while a > 0:
+        a -= 1
+    return a
+"""
+FLOW_TESTS = """import unittest
+from dtof_synth import power
+class Figures(unittest.TestCase):
+    def test_both(self):
+        self.assertEqual(power.both(1, 2), 3)
+    def test_down(self):
+        self.assertEqual(power.down(2), 0)
+"""
+
+
+class Synthesis(unittest.TestCase):
+    """A flow of one file, whose function twice() no test checks."""
+
+    FILE = f"{synthesis.PACKAGE}/power.py"
+
+    def judged(self, root: Path, count: int = 100) -> dict[str, Verdict]:
+        with mock.patch.object(synthesis, "ROOT", root), mock.patch.object(synthesis.remembered, "load", return_value=[]), \
+                mock.patch.object(synthesis, "TREE", ("synth",)), mock.patch.object(synthesis, "FLOW", ("synth",)), \
+                mock.patch.object(synthesis, "MORE_TIME_S", 1):  # fmt: skip
+            synthesis.imports_of_tests.cache_clear()
+            verdicts = synthesis.run(count, 1, root / "work", 1, [self.FILE])
+        return {verdict.mutant.change: verdict for verdict in verdicts}
+
+    def test_survivors_are_reported_and_an_interrupted_run_goes_on(self):
+        with tempfile.TemporaryDirectory() as name:
+            root = Path(name)
+            for folder in (synthesis.PACKAGE, synthesis.TESTS):
+                (root / folder).mkdir(parents=True)
+                (root / folder / "__init__.py").touch()
+            (root / self.FILE).write_text(FLOW)
+            tests = root / synthesis.TESTS / "test_power.py"
+            tests.write_text(FLOW_TESTS)
+            found = self.judged(root)
+            self.assertEqual({verdict.mutant.line for verdict in found.values() if verdict.state == "survived"}, {4})
+            self.assertIn("test_power.Figures.test_both", {verdict.by for verdict in found.values()})
+            with mock.patch.object(synthesis.Trees, "judge", side_effect=AssertionError):
+                self.assertEqual(self.judged(root), found)
+            tests.write_text(FLOW_TESTS + "    def test_twice(self):\n        self.assertEqual(power.twice(3), 6)\n")
+            self.assertEqual({verdict.state for verdict in self.judged(root).values()}, {"killed"})
+            tests.write_text(FLOW_TESTS.replace("3)", "4)"))
+            with self.assertRaisesRegex(synthesis.MutationError, "test_power fails without a mutant: test_power.Figures.test_both"):
+                self.judged(root)
+
+    def test_every_file_has_mutants_and_tests(self):
+        synthesis.imports_of_tests.cache_clear()
+        for file in synthesis.FILES:
+            self.assertTrue(synthesis.operators(file, (mutate.ROOT / file).read_text(encoding="utf-8")), file)
+            self.assertTrue(synthesis.tests_of(file, mutate.ROOT), file)
+        self.assertEqual(synthesis.tests_of(f"{synthesis.PACKAGE}/part_costs.py", mutate.ROOT), ["test_part_costs"])
+
+    def test_another_test_makes_verdicts_old_if_it_judges_the_file(self):
+        with tempfile.TemporaryDirectory() as name:
+            root = Path(name)
+            (root / synthesis.TESTS).mkdir(parents=True)
+            for test, text in (("test_a", "from .small import x"), ("test_b", ""), ("small", "")):
+                (root / synthesis.TESTS / f"{test}.py").write_text(text)
+            synthesis.imports_of_tests.cache_clear()
+            before = synthesis.digest(root, ["test_a"])
+            (root / synthesis.TESTS / "test_b.py").write_text("b = 1")
+            self.assertEqual(synthesis.digest(root, ["test_a"]), before)
+            (root / synthesis.TESTS / "small.py").write_text("x = 1")
+            self.assertNotEqual(synthesis.digest(root, ["test_a"]), before)
+
+    def test_each_file_has_to_reach_nine_tenths(self):
+        mutants = [Mutant(file=f"{file}.py", line=1, begin=0, end=1, original="a", mutated=str(number), operator="x", source="", above="",
+                          place=0) for file in "ab" for number in range(20)]  # fmt: skip
+        killed = [mutant.file == "a.py" or int(mutant.mutated) < 17 for mutant in mutants]
+        verdicts = [Verdict(mutant, "killed" if one else "survived", "because") for mutant, one in zip(mutants, killed)]
+        self.assertEqual(mutate.failures({"synthesis": verdicts}), ["b.py: 85.0 % killed, less than 90 %"])
+        self.assertIn("| b.py | 20 | 17 | 0 | 0 | 3 | 85.0 % | 64 to 95 % |", report.summary({"synthesis": verdicts}))
+
+    def test_interval_of_a_share(self):
+        # Wilson's: (p + z2/2n -+ z sqrt(p(1-p)/n + z2/4n2)) / (1 + z2/n); with all of n killed it begins at n / (n + z2).
+        for killed, judged, low, high in ((20, 20, 20 / 23.8415, 1), (0, 0, 0, 1), (5, 10, 0.2366, 0.7634)):
+            for found, wanted in zip(report.interval(killed, judged), (low, high)):
+                self.assertAlmostEqual(found, wanted, places=4)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 import unittest
 from pathlib import Path
+from unittest import mock
 
-from dtof_synth import area_parts, configuration, library, report, sram_model
+from dtof_synth import area_parts, configuration, library, report, sram_model, wide_words
 from dtof_synth.netlist import Counts
 from dtof_synth.power import ClockTree
 from dtof_synth.run import Result
@@ -46,6 +47,18 @@ class Parts(unittest.TestCase):
         self.assertAlmostEqual(area_parts.scan(one), 30300 * 2.0)
         self.assertAlmostEqual(area_parts.placed_with_all(one), area_parts.placed(one) + (60600.0 + 300.0) / 0.75,
                                places=3)
+
+    def test_engines_macros_are_placed_too(self):
+        one = result("poolpointer", ENGINES)
+        halos = 0.0
+        for number, size in ((50, Size(1, 100, 232)), (6, Size(1, 160, 33))):
+            macro = sram_model.macro(size)
+            halos += number * (macro.width + 4.0) * (macro.height + 4.0)
+        self.assertAlmostEqual(area_parts.placed(one), (50 * 2400.0 + 9000.0) / 0.75 + halos, places=3)
+
+    def test_wide_words_are_doubtful_with_a_multiplexer_too(self):
+        with mock.patch.object(wide_words, "FITTED_BITS", 13):
+            self.assertEqual(area_parts.doubtful_macros([result("ezpointer", NONE)]), [Size(2, 160, 14)])
 
     def test_macros_that_the_points_do_not_cover(self):
         plain, pool = result("ezpointer", NONE), result("poolpointer", ENGINES)

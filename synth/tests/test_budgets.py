@@ -3,13 +3,15 @@
 
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
 from dtof_synth import budgets, configuration
 from dtof_synth.errors import FlowError
+from dtof_synth.power import Power
 
-from .small_results import ROOT, result
+from .small_results import ROOT, TIMING, result
 
 BUDGET = {"logic_column_um2": 500.0, "shared_um2": 20000.0, "sram_column_um2": 0.0, "total_mm2": 1.0, "power_mw": 200.0,
           "fmax_slow_mhz": 400.0, "fmax_typical_mhz": 1000.0}
@@ -37,6 +39,24 @@ class Budgets(unittest.TestCase):
         self.assertAlmostEqual(found["total_mm2"], 0.12 + 200e-6 * some.sram_area, delta=1e-4)
         self.assertEqual([found[name] for name in ("logic_column_um2", "shared_um2", "power_mw", "fmax_slow_mhz", "fmax_typical_mhz")],
                          [500.0, 20000.0, 6.0, 400.0, 400.0])
+
+    def test_figures_are_rounded_to_what_a_reader_compares(self):
+        timing = replace(TIMING, fmax_mhz=412.345)
+        some = replace(result("ezpointer", 500.06, 20000.04), timing={"slow": timing, "typical": replace(timing, fmax_mhz=987.654)},
+                       power=Power(1.04, 2.04, 3.04))
+        found = budgets.figures(some)
+        self.assertEqual([found[name] for name in ("logic_column_um2", "shared_um2", "power_mw", "fmax_slow_mhz", "fmax_typical_mhz")],
+                         [500.1, 20000.0, 6.1, 412.3, 987.7])
+        self.assertEqual((found["sram_column_um2"], found["total_mm2"]), (round(some.sram_area, 1), round(some.total_mm2, 4)))
+        self.assertEqual(budgets.figures(replace(some, power=None))["power_mw"], 0.0)
+
+    def test_what_is_written_is_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "budgets.csv"
+            self.assertEqual(budgets.read(path), {})
+            some = {name: result(name) for name in ("ezpointer", "sifh")}
+            budgets.write(path, some)
+            self.assertEqual(budgets.read(path), {name: budgets.figures(one) for name, one in some.items()})
 
     def test_a_figure_that_was_nothing_and_is_something_has_moved(self):
         self.assertEqual(self.moved(sram_column_um2=3.0), ["some: sram_column_um2 0 -> 3 (+100.0%)"])

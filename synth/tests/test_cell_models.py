@@ -37,6 +37,8 @@ class Expressions(unittest.TestCase):
         for function in ("", "A +", "(A", "A)", "A ? B", "A * * B"):
             with self.subTest(function=function), self.assertRaisesRegex(FlowError, "cell X: "):
                 cell_models.expression(function, "cell X")
+        with self.assertRaisesRegex(FlowError, "cell X: a bracket of the function .* is not closed"):
+            cell_models.expression("(A + B", "cell X")
 
 
 class Models(unittest.TestCase):
@@ -100,7 +102,9 @@ class Models(unittest.TestCase):
           cell (N) { pin (Y) { direction : output; } }
           cell (T) { pin (Y) { direction : output; function : "A"; three_state : "E"; } }
           cell (C) { ff (IQ, IQN) { next_state : "D"; clocked_on : "A * B"; } }""")
-        for name, message in (("L", "'latch' group"), ("N", "no function"), ("T", "no function"),
+        library.groups.extend(self.parse("""cell (G) { clock_gating_integrated_cell : "latch_posedge";
+          pin (CK) { direction : input; clock_gate_clock_pin : true; } pin (Q) { direction : output; clock_gate_out_pin : true; } }""").groups)
+        for name, message in (("G", "the clock gate has no enable pin"), ("L", "'latch' group"), ("N", "no function"), ("T", "no function"),
                               ("C", "neither a pin"), ("absent", "no cell absent")):
             with self.subTest(cell=name), self.assertRaisesRegex(FlowError, message):
                 cell_models.verilog(library, [name])

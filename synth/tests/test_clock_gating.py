@@ -117,6 +117,14 @@ endmodule
         self.assertNotIn("differs", said, f"seed {seed}")
         self.assertGreater(int(said.split()[-1]), 1900, f"seed {seed}")
 
+    def test_four_registers_are_worth_a_gate_and_three_are_not(self):
+        for number, gates in ((3, 0), (4, 1)):
+            text = "".join(["module \\column\n", *(f"  cell $_DFFE_PP_ $r{index}\n    connect \\C \\clk\n    connect \\D \\d\n"
+                                                  f"    connect \\E \\e\n    connect \\Q \\q{index}\n  end\n"
+                                                  for index in range(number)), "end\n"])
+            gated, found = clock_gating.gated(text, self.library)
+            self.assertEqual((found, gated.count("cell $_DFF_P_ "), gated == text), (gates, number * gates, not gates))
+
     def test_without_a_gate_in_the_library_nothing_changes(self):
         text = (self.folder / "generic.il").read_text(encoding="utf-8")
         self.library.clock_gate, kept = None, self.library.clock_gate

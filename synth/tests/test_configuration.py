@@ -34,6 +34,19 @@ class Configurations(unittest.TestCase):
         self.assertEqual(bits_per_pixel(self.named["fifh"]), 320 + 5)
         self.assertEqual(memories(self.named["hispointer"])["pointer"], Size(2, 160, 19))
 
+    def test_an_array_of_several_read_outs_is_told_which_one(self):
+        for name, number in (("ezpointer", readouts.load().readouts["ezpointer"].number), ("poolpointer", None)):
+            found = dict(self.named[name].rtl_parameters())
+            self.assertEqual(found.pop("READOUT", None), number)
+            self.assertEqual(found, self.named[name].parameters)
+
+    def test_bins_of_a_histogram(self):
+        # SiFH: 640 bits a pixel in bins of 10 bits are 2^6 bins; ezPointer has none.
+        some = self.named["sifh"]
+        self.assertEqual(configuration.bin_width(some), int.bit_length(memories(some)["histogram"].words // some["PIXELS_PER_SRAM"]) - 1)
+        with self.assertRaisesRegex(FlowError, "ezpointer: the read-out has no histogram"):
+            configuration.bin_width(self.named["ezpointer"])
+
     def test_engines_have_time(self):
         for name, columns in (("poolpointer", 34), ("poolpointer_lean", 50)):
             self.assertEqual(growth.engine_columns(self.named[name]), columns)

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import library, standard_cells, tools
+from dtof_synth import standard_cells, tools
 
 ROOT = Path(__file__).resolve().parents[2]
 PERIOD_NS = 3.0
@@ -20,6 +20,11 @@ class Constraints(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
+        cls.output = cls.timed((ROOT / "constraints" / "dtof.sdc").read_text(encoding="utf-8"))
+
+    @classmethod
+    def timed(cls, constraints: str, more: str = "") -> str:
+        """What OpenSTA says about the circuit with these constraints, and to `more` commands."""
         registers = [f"  DFF_X1 r_{name} (.D({name}), .CK(clk_i), .Q());" for name in INPUTS if name != "rst_ni"]
         # One register has 20 inverters of drive 8 behind it, a load beyond every table.
         registers += [f"  INV_X8 heavy{index} (.A(q_heavy), .Y());" for index in range(20)]
@@ -29,6 +34,7 @@ class Constraints(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             (folder / "slow.lib").write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
+            (folder / "dtof.sdc").write_text(constraints, encoding="utf-8")
             (folder / "t.v").write_text("\n".join([
                 f"module t ({', '.join(ports)});", *(f"  input {port};" for port in ("clk_i", *INPUTS)),
                 *(f"  output {port};" for port in OUTPUTS), "  wire q_r, q_heavy;", *registers,
@@ -36,25 +42,24 @@ class Constraints(unittest.TestCase):
             script = folder / "t.tcl"
             script.write_text(
                 f"read_liberty {folder}/slow.lib\nread_verilog {folder}/t.v\nlink_design t\nset period {PERIOD_NS}\n"
-                f"source {ROOT}/constraints/dtof.sdc\n"
+                f"source {folder}/dtof.sdc\n{more}\n"
                 "foreach mode {max min} {\n  puts \"MODE $mode\"\n"
                 "  report_checks -path_delay $mode -group_count 1000 -endpoint_count 1 -digits 4\n}\n"
                 "puts EDGES\nreport_check_types -all_violators -max_transition\n"
                 "check_setup -verbose -unconstrained_endpoints -no_input_delay\nputs DTOF_STA_OK\nexit\n", encoding="utf-8")
-            cls.output = tools.run_sta(script, folder / "settings", folder / "log", "constraints")
-            cls.library = library.read(folder / "slow.lib")
+            return tools.run_sta(script, folder / "settings", folder / "log", "constraints")
 
-    def paths(self, mode: str) -> dict[tuple[str, str], str]:
+    def paths(self, mode: str, output: str = "") -> dict[tuple[str, str], str]:
         """Reports by start and end."""
-        section = self.output.split(f"MODE {mode}\n")[1].split("MODE ")[0]
+        section = (output or self.output).split(f"MODE {mode}\n")[1].split("MODE ")[0]
         found = {}
         for text in section.split("Startpoint: ")[1:]:
             found[text.split(maxsplit=1)[0], re.search(r"Endpoint: (\S+)", text).group(1)] = text
         return found
 
-    def external(self, start: str, end: str, mode: str = "max") -> float:
+    def external(self, start: str, end: str, mode: str = "max", output: str = "") -> float:
         """ns that the port's budget takes of a path."""
-        text = self.paths(mode)[start, end]
+        text = self.paths(mode, output)[start, end]
         return abs(float(re.search(r"(-?[\d.]+) +-?[\d.]+ +[v^]? ?(?:input|output) external delay", text).group(1)))
 
     def test_every_port_leaves_seven_tenths_of_the_period(self):
@@ -64,6 +69,32 @@ class Constraints(unittest.TestCase):
         for name in OUTPUTS:
             if name != "sram_cfg_o":
                 self.assertAlmostEqual(self.external(f"r_{name}", name), 0.9, places=4, msg=name)
+
+    def test_each_kind_of_port_has_the_share_with_its_name(self):
+        text = (ROOT / "constraints" / "dtof.sdc").read_text(encoding="utf-8")
+        for share, value in (("tdc", 0.4), ("stream", 0.5)):
+            text, changes = re.subn(rf"(?<=^set {share}_share )\S+$", f"{value}", text, flags=re.MULTILINE)
+            self.assertEqual(changes, 1)
+        output = self.timed(text)
+        for mode in ("max", "min"):
+            for name in (*INPUTS, *OUTPUTS):
+                if name not in ("rst_ni", "start_i", "sram_cfg_i", "sram_cfg_o"):
+                    expected = 1.2 if name.startswith("tdc_") else 1.5 if name.startswith("result_") else 0.9
+                    path = (name, f"r_{name}") if name in INPUTS else (f"r_{name}", name)
+                    self.assertAlmostEqual(self.external(*path, mode, output), expected, places=4, msg=f"{name} {mode}")
+
+    def test_with_margins_ports_have_a_driver_and_a_load(self):
+        # 0.0321 ns at every input, and 17 fF at every output. Cells are 5 % slower where late paths count.
+        constraints = (ROOT / "constraints" / "dtof.sdc").read_text(encoding="utf-8")
+        output = self.timed(constraints, f"set slew 0.0321\nset load 17\nsource {ROOT}/constraints/margins.sdc\n"
+                            "puts WITH\nreport_checks -from [get_ports raw_i] -fields {slew cap} -digits 4\n"
+                            "report_checks -to [get_ports busy_o] -fields {slew cap} -digits 4\nputs MODES")
+        section = output.split("WITH\n")[1].split("MODES")[0]
+        self.assertRegex(section, r"(?m)^ +\S+ +0\.0321 +0\.0000 +0\.9000 [v^] raw_i \(in\)$")
+        self.assertRegex(section, r"(?m)^ +17\.0000 .* r_busy_o/Q \(DFF_X1\)$")
+        for mode, uncertainty in (("max", -0.15), ("min", 0.05)):
+            text = self.paths(mode, output)["r_rst", "r_busy_o"]
+            self.assertAlmostEqual(float(re.search(r"(-?[\d.]+) +-?[\d.]+ +clock uncertainty", text).group(1)), uncertainty, places=4)
 
     def test_the_reset_leaves_four_fifths(self):
         self.assertAlmostEqual(self.external("rst_ni", "r_rst"), 0.6, places=4)

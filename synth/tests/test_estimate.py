@@ -3,6 +3,7 @@
 
 import unittest
 from dataclasses import replace
+from unittest import mock
 
 from dtof_synth import configuration, estimate
 from dtof_synth.errors import FlowError
@@ -75,6 +76,15 @@ class Estimate(unittest.TestCase):
     def test_a_figure_that_nothing_was_held_out_for_has_no_error_of_zero(self):
         with self.assertRaisesRegex(FlowError, "nothing is held out for the power"):
             estimate.checked(estimate.errors(points(), []))
+
+    def test_goals_are_five_per_cent_of_area_and_ten_of_power(self):
+        for figure, goal, at, above in (("area", "5%", 1.0499, 1.0501), ("power", "10%", 0.9001, 0.8999), ("fmax", "-", 2.0, 2.0)):
+            for estimated, met in ((at, "yes"), (above, "**no**")):
+                error = estimate.Error("some", figure, estimate.HELD_OUT, 1.0, estimated)
+                with mock.patch.object(estimate, "digest", return_value="0"):
+                    text = estimate.report(ROOT, [error])
+                size = f"{abs(estimated - 1):.1%}"
+                self.assertIn(f"| {figure} | {estimate.HELD_OUT} | 1 | {size} | {size} | {goal} | {met if goal != '-' else '-'} |", text)
 
     def test_wide_arrays_are_slower(self):
         model = estimate.fit(points(), [])

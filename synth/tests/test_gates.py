@@ -55,15 +55,18 @@ class Slacks(unittest.TestCase):
 
 class Goals(unittest.TestCase):
     def test_a_limit_is_the_largest_value_that_is_met(self):
-        # ezPointer's column 700 um2, others' 1200, poolPointer's array 1.15 mm2, one-port ezPointer's 0.65 mm2.
-        pool, one_port = (result(name, 0.0) for name in ("poolpointer", "ezpointer_one_port"))
+        # ezPointer's column 700 um2, others' 1200, poolPointer's array 1.15 mm2, lean's 0.81 mm2, one-port ezPointer's 0.65 mm2.
+        pool, lean, one_port = (result(name, 0.0) for name in ("poolpointer", "poolpointer_lean", "ezpointer_one_port"))
         pool_shared = 1.15e6 - pool.total_mm2 * 1e6
+        lean_shared = 0.81e6 - lean.total_mm2 * 1e6
         one_port_shared = 0.65e6 - one_port.total_mm2 * 1e6
         for name, at, above, text in (
                 ("ezpointer", {"logic_um2": 700.0}, {"logic_um2": 701.0}, "ezPointer: logic of a column at most 700 um2"),
                 ("fifh", {"logic_um2": 1200.0}, {"logic_um2": 1201.0}, "FiFH: logic of a column at most 1200 um2"),
                 ("poolpointer", {"logic_um2": 0.0, "shared_um2": pool_shared - 1}, {"logic_um2": 0.0, "shared_um2": pool_shared + 1},
                  "poolPointer: array at most 1.15 mm2"),
+                ("poolpointer_lean", {"logic_um2": 0.0, "shared_um2": lean_shared - 1}, {"logic_um2": 0.0, "shared_um2": lean_shared + 1},
+                 "poolPointer lean: array at most 0.81 mm2"),
                 ("ezpointer_one_port", {"logic_um2": 0.0, "shared_um2": one_port_shared - 1},
                  {"logic_um2": 0.0, "shared_um2": one_port_shared + 1}, "ezPointer, one-port SRAM: array at most 0.65 mm2")):
             self.assertEqual(failing(goals.check({name: result(name, **at)})), [])
@@ -151,6 +154,18 @@ class Exceptions(unittest.TestCase):
                 file.write_text(text, encoding="utf-8")
                 with self.assertRaisesRegex(FlowError, message):
                     gates.read(file)
+
+
+class NoReport(unittest.TestCase):
+    def test_a_report_without_goals_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "pool.md"
+            for text, message in ((None, "no section 'Goals'"), ("# Pool\n", "no section 'Goals'"), ("## Goals\n\nNone.\n", "no goal in the section"),
+                                  ("## Goals\n| goal | a |\n|---|---|\n| b |\n", "cannot read the goal")):
+                if text is not None:
+                    file.write_text(text, encoding="utf-8")
+                with self.assertRaisesRegex(FlowError, message):
+                    gates.measured(file)
 
 
 class Command(unittest.TestCase):

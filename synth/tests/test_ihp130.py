@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 import csv
+import gzip
+import tempfile
 import unittest
 from pathlib import Path
 
 from dtof_synth import ihp130, sram_model
+from dtof_synth.errors import FlowError
 from dtof_synth.sram_model import Size
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -32,6 +35,55 @@ class Choice(unittest.TestCase):
         memory = ihp130.macro(Size(1, 160, 20), self.MACROS)
         self.assertEqual((memory.banks, memory.area, memory.access_slow, memory.setup, memory.hold), (2, 600, 5.0, 0.4, 0.8))
         self.assertEqual(ihp130.macro(Size(1, 257, 4), self.MACROS), sram_model.macro(Size(1, 257, 4)))
+
+
+def table(middle: float) -> str:
+    """A table of 2 by 3 whose middle has this value; other values are larger and smaller."""
+    return f'(t) {{ index_1 ("1, 2"); values ("90, 91, 92", "93, {middle}, 0.01"); }}'
+
+
+def timing(kind: str, *tables: tuple[str, float]) -> str:
+    return f"timing () {{ timing_type : {kind}; {' '.join(f'{name} {table(middle)}' for name, middle in tables)} }}"
+
+
+def macro_liberty(access: float, setup: float) -> str:
+    """Two pins with constraints, one of the self-test with larger ones, and a bus with the access times on its pin."""
+    pins = [f"pin (A_{name}) {{ {timing('setup_rising', ('rise_constraint', setup - less), ('fall_constraint', setup - 0.1))} "
+            f"{timing('hold_rising', ('rise_constraint', 0.1), ('fall_constraint', 0.3 - less))} }}" for name, less in (("MEN", 0.0), ("WEN", 0.2))]
+    pins.append(f"pin (A_BIST_EN) {{ {timing('setup_rising', ('rise_constraint', 70.0))} {timing('rising_edge', ('cell_rise', 80.0))} }}")
+    output = timing("rising_edge", ("cell_rise", access - 0.5), ("cell_fall", access), ("rise_transition", 50.0))
+    return f"library (l) {{ cell (RM) {{ {' '.join(pins)} bus (A_DOUT) {{ pin (A_DOUT[0]) {{ {output} }} }} }} cell (OTHER) {{ }} }}"
+
+
+class Read(unittest.TestCase):
+    """A folder as the PDK has it, with one macro."""
+
+    STEM = "RM_IHPSG13_2P_256x16_c3"
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        for name, text in ((f"{self.STEM}.lef.gz", "MACRO x\n  SIZE 416.64 BY 118.78 ;\n"),
+                           (f"{self.STEM}_typ_1p20V_25C.lib.gz", macro_liberty(2.5, 9.0)),
+                           (f"{self.STEM}_slow_1p08V_125C.lib.gz", macro_liberty(4.0, 0.7))):
+            (self.folder / name).write_bytes(gzip.compress(text.encode()))
+
+    def test_figures_are_the_worst_of_the_functional_pins_in_the_middle_of_their_tables(self):
+        found, = ihp130.read(self.folder)
+        self.assertEqual(found, ihp130.Compiled(self.STEM, Size(2, 256, 16), 3, 416.64, 118.78, 2.5, 4.0, 0.7, 0.3))
+        self.assertAlmostEqual(found.area, 416.64 * 118.78)
+
+    def test_what_is_missing_is_named(self):
+        with self.assertRaisesRegex(FlowError, "no timing of type hold_falling"):
+            ihp130._worst(ihp130._cell(self.folder / f"{self.STEM}_typ_1p20V_25C.lib.gz"), "hold_falling", ("rise_constraint",))
+        (self.folder / f"{self.STEM}_slow_1p08V_125C.lib.gz").unlink()
+        with self.assertRaisesRegex(FlowError, "not a macro of which"):
+            ihp130.read(self.folder)
+
+    def test_cells_of_both_corners(self):
+        self.assertEqual([path.name for path in ihp130.cells(Path("pdk"))],
+                         ["sg13g2_stdcell_typ_1p20V_25C.lib.gz", "sg13g2_stdcell_slow_1p08V_125C.lib.gz"])
 
 
 @unittest.skipUnless((PDK / "ihp130").is_dir(), f"{PDK}/ihp130 is not here")

@@ -41,6 +41,11 @@ class Liberty(unittest.TestCase):
         self.assertEqual(again.get("last"), "z")
         self.assertEqual(again.children("cell")[0].number("area"), 2)
 
+    def test_a_bus_is_descending_from_its_width_to_its_lowest_bit(self):
+        for arguments, name, first, last in (((3,), "bits_3_0", "2", "0"), ((4, 5), "bits_4_5", "8", "5")):
+            bus = liberty.bus_type(*arguments)
+            self.assertEqual((bus.name, bus.get("bit_from"), bus.get("bit_to")), (name, first, last))
+
     def test_broken_texts_are_refused(self):
         for text in ("", "library (x) { cell (", "library (x) { area 5 }", "module x; endmodule"):
             with self.subTest(text=text), self.assertRaises(FlowError):

@@ -61,6 +61,26 @@ class Loads(WithLibrary):
         self.assertTrue(loads.Load("a", 1.0, 2.0, loads.MAX_FANOUT + 1).is_too_much)
         self.assertTrue(loads.Load("a", 2.1, 2.0, 1).is_too_much)
 
+    def test_three_of_the_loads_beyond_their_limits_are_named(self):
+        heavy = [loads.Load(f"d{index}", 9.0, 8.0, 1) for index in range(4)]
+        design, plan = self.design(2)
+        with mock.patch.object(loads, "of_top", return_value=heavy):
+            with self.assertRaisesRegex(FlowError, "4 drivers have too much to drive: d0 [^;]*; d1 [^;]*; d2 [^;]*$"):
+                self.check(design, plan)
+
+    def test_the_load_closest_to_its_limit_is_shown(self):
+        near, far = loads.Load("near", 5.0, 6.0, 1), loads.Load("far", 10.0, 20.0, 1)
+        design, plan = self.design(2)
+        with mock.patch.object(loads, "of_top", return_value=[far, near]), mock.patch.object(loads, "of_block", return_value=[]):
+            self.assertEqual(self.check(design, plan), near)
+
+    def test_drivers_without_a_limit_are_not_judged(self):
+        design, plan = self.design(2)
+        netlist.modules(design)["test_column"]["cells"]["odd"] = cell("ODD", {"A": 8}, {"Y": 30})
+        netlist.top(design)["cells"]["far"]["type"] = "ODD"
+        self.assertNotIn("test_column/odd", {load.driver for load in loads.of_block(design, "test_column", self.library, self.pin_load)})
+        self.assertNotIn("far/Q", {load.driver for load in loads.of_top(design, plan, self.library, self.pin_load)})
+
     def test_a_cell_that_is_too_weak_for_its_wire_gets_the_drive_that_suffices(self):
         design, plan = self.design(4)
         loads.strengthen(design, plan, self.library, self.pin_load)

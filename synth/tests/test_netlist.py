@@ -132,6 +132,65 @@ class FanoutTrees(unittest.TestCase):
         self.assertEqual({source(module, module["cells"][f"sink{index}"]["connections"]["A"][0])
                           for index in range(2 * netlist.MAX_FANOUT + 1)}, {"D3"})
 
+    def test_two_hundred_inputs_are_the_most(self):
+        for inputs, buffers in ((200, 0), (201, 2)):  # two nearly equal clusters
+            module = fan(inputs)
+            netlist.insert_fanout_trees(module, replace(library(), wire_ff_per_sink=0.0), lambda *_: 1e-3, set())
+            self.assertEqual(netlist.count(module, library()).buffers, buffers)
+
+    def test_the_builder_knows_what_the_driver_has_left(self):
+        # 30 inverters of 1.5 fF are 45 fF. Half of 80 fF are 40 fF: two buffers with 15 each, of 2.5 fF; 5 fF are what is left.
+        module = fan(30)
+        builder = netlist.TreeBuilder(module, library(), pin_load)
+        builder.relieve(4, 20.0)
+        self.assertEqual([sink.load for sink in builder.nets[4]], [2.5, 2.5])
+        self.assertEqual({sink.cell for sink in builder.nets[4]},
+                         {name for name, item in module["cells"].items() if item["connections"].get("A") == [4]})
+
+    def test_a_cell_with_two_outputs_becomes_as_strong_as_both_need(self):
+        weak = library()
+        most = weak.max_load_ff | {"DFF": {"Q": 20.0, "QN": 20.0}, "DFF_X2": {"Q": 40.0, "QN": 20.0}, "DFF_X4": {"Q": 40.0, "QN": 40.0}}
+        strong = replace(weak, drives=[["DFF", "DFF_X2", "DFF_X4"]], area=weak.area | {"DFF_X2": 5.2, "DFF_X4": 5.4}, max_load_ff=most)
+        for inverted, kind in ((6, "DFF_X2"), (7, "DFF_X4")):  # of 20 fF the half are 6 inverters of 1.5 fF
+            module = fan(12)
+            module["cells"]["q"] = cell("DFF", {"D": 3, "CK": 2}, {"Q": 4, "QN": 900})
+            module["cells"] |= {f"n{index}": cell("INV", {"A": 900}, {"Y": 901 + index}) for index in range(inverted)}
+            netlist.strengthen(module, strong, pin_load, {2})
+            self.assertEqual(module["cells"]["q"]["type"], kind)
+
+    def test_a_columns_share_of_its_module(self):
+        counts = netlist.Counts(10, 4, 8.0, 2, 1.0, 6.0, 5.0, 3)
+        self.assertEqual(counts.share(1), counts)
+        self.assertEqual(counts.share(4), netlist.Counts(2, 1, 2.0, 0, 0.25, 1.5, 1.25, 1))
+        self.assertEqual(netlist.Counts(0, 0, 0.0, 0, 0.0, 0.0, 0.0).clock_sinks, 0)
+
+    def test_engines_count_as_often_as_they_are_there(self):
+        engine = {"attributes": {}, "ports": {"clk_i": {"direction": "input", "bits": [2]}},
+                  "cells": {"r": cell("DFF", {"D": 7, "CK": 2}, {"Q": 8}), "i": cell("INV", {"A": 8}, {"Y": 9})}}
+        module = fan(3)
+        one = netlist.count_shared({"modules": {"top": module}}, library())
+        self.assertEqual(one, netlist.Counts(4, 1, 6.5, 0, 0.0, 1.0, 2.0, 1))
+        module["cells"] |= {name: cell("an_engine", {"clk_i": 2}, {}) for name in ("a", "b")}
+        design = {"modules": {"top": module, "an_engine": engine}}
+        self.assertEqual(netlist.count_engines(design, library()), netlist.Counts(4, 2, 11.0, 0, 0.0, 2.0, 4.0, 2))
+        self.assertEqual(netlist.count_shared(design, library()), netlist.Counts(8, 3, 17.5, 0, 0.0, 3.0, 6.0, 3))
+
+    def test_derived_modules_get_plain_names_with_their_instances(self):
+        column, engine = "$paramod$12\\a_column", "$paramod$34\\an_engine"
+        module = fan(1)
+        module["cells"] |= {"a": cell(column, {}, {}), "b": cell(column, {}, {}), "e": cell(engine, {}, {})}
+        design = {"modules": {"top": module, column: {"attributes": {}, "cells": {}}, engine: {"attributes": {}, "cells": {}}}}
+        netlist.rename_parts(design)
+        self.assertEqual(list(design["modules"]), ["top", "a_column", "an_engine"])
+        self.assertEqual([module["cells"][name]["type"] for name in ("a", "b", "e", "q")], ["a_column", "a_column", "an_engine", "DFF"])
+        self.assertEqual((netlist.columns(design), netlist.engine_module(design)), (["a", "b"], "an_engine"))
+
+    def test_cells_that_nobody_knows_are_foreign(self):
+        module = fan(1)
+        module["cells"] |= {"a": cell("own", {}, {}), "e": cell("empty", {}, {}), "m": cell("sram", {}, {}), "x": cell("LATCH", {}, {})}
+        design = {"modules": {"top": module, "own": {"cells": {"i": cell("INV", {"A": 1}, {"Y": 2})}}, "empty": {"cells": {}}}}
+        self.assertEqual(netlist.foreign_cells(design, library(), {"sram"}), {"empty", "LATCH"})
+
     def test_names_of_a_pin(self):
         block = {"attributes": {}, "ports": {"d": {"direction": "input", "bits": [6, 7]}},
                  "cells": {"r": cell("DFF", {"D": 7, "CK": 2}, {"Q": 8}), "s": cell("DFF", {"D": 8, "CK": 2}, {"Q": 9}),
@@ -141,6 +200,7 @@ class FanoutTrees(unittest.TestCase):
         design = {"modules": {"top": module, "block": block}}
         self.assertEqual(netlist.in_all_blocks(design, ("block", "m", "wdata_i[1]")), ["a/m/wdata_i[1]", "b/m/wdata_i[1]"])
         self.assertEqual(netlist.in_all_blocks(design, ("", "sink1", "A")), ["sink1/A"])
+        self.assertEqual([netlist._bits_of(block, "m", pin) for pin in ("wdata_i", "wdata_i[1]")], [([8, 6], 0), ([8, 6], 1)])
         for pin, there in (("sink1/A", True), ("a/m/wdata_i[1]", True), ("b/r/D", True), ("b/r/SI", False), ("a/t/D", False), ("t/D", False)):
             self.assertEqual(netlist.has_pin(design, pin), there, pin)
 

@@ -103,6 +103,13 @@ class Accesses(unittest.TestCase):
         expected = 200 * (0.5 * (macro.read_energy + macro.write_energy) * 330e-3 + macro.leakage * 1e-3)
         self.assertAlmostEqual(power.sram_mw(NAMED["ezpointer"], 330.0), expected, places=6)
 
+    def test_memories_of_the_engines_leak(self):
+        # poolPointer: 50 SRAMs of columns with 5 accesses in 16 clocks, reads and writes alike; 6 of engines, idle during a measurement.
+        column, engine = (sram_model.macro(sram_model.Size(1, words, bits)) for words, bits in ((100, 232), (160, 33)))
+        dynamic = 0.3125 * (column.read_energy + column.write_energy) * 330e-3
+        expected = 50 * (dynamic + column.leakage * 1e-3) + 6 * engine.leakage * 1e-3
+        self.assertAlmostEqual(power.sram_mw(NAMED["poolpointer"], 330.0), expected, places=8)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -3,8 +3,10 @@
 
 import unittest
 from pathlib import Path
+from unittest import mock
 
-from dtof_synth import rival_area, sram_model
+from dtof_synth import rival_area, sram_model, standard_cells
+from dtof_synth.errors import FlowError
 from dtof_synth.rival_area import Base, Hardware
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -23,6 +25,25 @@ class RivalArea(unittest.TestCase):
         wide = rival_area.sram_um2(160, Hardware(1, 630))
         self.assertLess(wide, one)
         self.assertGreater(wide, 630 * 160 * sram_model.KINDS[1].cell_area)
+
+    def test_macros_side_by_side_are_as_many_as_save_area(self) -> None:
+        def area(bits: int) -> float:
+            return sram_model.macro(sram_model.Size(1, 160, bits)).area
+
+        for most, expected in ((1, area(630)), (2, 2 * area(315)), (3, min(2 * area(315), 3 * area(210)))):
+            with mock.patch.object(rival_area, "MOST_MACROS", most):
+                self.assertAlmostEqual(rival_area.sram_um2(160, Hardware(1, 630)), expected)
+        self.assertLess(2 * area(315), area(630))
+        self.assertEqual(rival_area.sram_um2(160, Hardware(1, 1)), area(1))
+
+    def test_cells_of_a_bit_and_of_a_flag(self) -> None:
+        # In pitches of the generated library, whose area is that of a NAND2's third.
+        pitches = {gate.name: gate.pitches for gate in standard_cells.gates()} | {"DFF": standard_cells.sequential_pitches("DFF")}
+        for area, parts in ((rival_area.bit_um2(), ("DFF", "DFF", "FA_X1", "MUX2_X1")),
+                            (rival_area.flag_um2(), ("DFF", "AND2_X1", "AND2_X1", "OR2_X1"))):
+            self.assertAlmostEqual(area, standard_cells.PITCH_AREA_UM2 * sum(pitches[part] for part in parts))
+        with self.assertRaisesRegex(FlowError, "no standard cell is called XYZ"):
+            rival_area._cell_um2("XYZ")
 
     def test_logic_adds_up(self) -> None:
         base = Base(100.0, 50.0)

@@ -104,6 +104,11 @@ class SameLogic(unittest.TestCase):
         self.assertEqual(self.refusal(lambda pair, top: pair.pop("tied")), "a_quad: tied is gone")
         self.assertEqual(self.refusal(lambda pair, top: pair.update(extra=cell("INV_X1", {"A": 4}, {"Y": 90}))), "a_quad: extra is new")
 
+    def test_a_module_that_only_one_of_them_has_is_found(self):
+        for before, after, said in (({"a": {"x": (1,)}}, {}, "a: x is gone"), ({}, {"a": {"x": (1,)}}, "a: x is new")):
+            with self.assertRaisesRegex(FlowError, said):
+                same_logic.check(before, after)
+
     def test_another_constant_and_another_output_are_found(self):
         def tie(pair, top):
             pair["tied"]["connections"]["A2"] = ["0"]

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Power on a scene, from counted transitions to the array and to a frame, by hand."""
 
+import subprocess
 import tempfile
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
 from dtof_synth import configuration, library, run, scene_power, sram_model, standard_cells
-from dtof_synth.activity import OTHER, STREAMING, Activity, Scope
+from dtof_synth.activity import OTHER, STREAMING, Activity, Energy, Scope
+from dtof_synth.errors import FlowError
 from dtof_synth.power import ClockTree
 
 from .small_netlists import cell, module
@@ -85,6 +88,204 @@ class Array(unittest.TestCase):
         expected = (200 * 7.0 + 100.0 + 1000.0 * 1.21) * 330e-6
         self.assertAlmostEqual(self.power.streaming.clock, expected, places=9)
         self.assertAlmostEqual(self.power.idle_mw, expected + self.power.leakage_mw, places=9)
+
+class Pool(unittest.TestCase):
+    """poolPointer: 50 quads with an SRAM outside each, 6 engines with an SRAM in each; every scope has energies of choice."""
+
+    ENERGIES = {"a_quad_netlist": Energy(nets=100.0, cells=50.0, sram=0.0, sram_reads=0.0, gated_clock=20.0),
+                "t": Energy(nets=30.0, cells=10.0, sram=400.0, sram_reads=250.0), "an_engine_netlist": Energy(60.0, 40.0, 80.0, 8.0, 6.0)}
+
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.scratch.cleanup)
+        folder = Path(cls.scratch.name)
+        (folder / "typical.lib").write_text(standard_cells.library(standard_cells.TYPICAL), encoding="utf-8")
+        (folder / run.FINISHED_COLUMN).write_text('{"finished": 1}', encoding="utf-8")
+        cls.library = library.read(folder / "typical.lib")
+        inverters = {f"i{index}": cell("INV_X1", {"A": 3}, {"Y": 4 + index}) for index in range(4)}
+        blocks = {kind: module({"a": ("input", 3)}, dict(list(inverters.items())[:number]))
+                  for kind, number in (("a_quad_netlist", 1), ("an_engine_netlist", 2))}
+        design = {"modules": blocks | {"t": module({"a": ("input", 3)}, inverters | {
+            "q": cell("a_quad_netlist", {"a": 3}, {}), "e": cell("an_engine_netlist", {"a": 3}, {})}, top=True)}}
+        counted = Activity({"": Scope("t"), "p0": Scope("a_quad_netlist", {STREAMING: {4: 50}}), "p1": Scope("an_engine_netlist")},
+                           {STREAMING: 100, OTHER: 50})
+        area = cls.library.area["INV_X1"]
+        some = result("poolpointer")
+        # Control is 3 times, engines are 12 times the small array's: 4 and 2 inverters.
+        some = replace(some, shared=replace(some.shared, area=36 * area, clock_energy_fj=100.0), engines=replace(some.engines, area=24 * area),
+                       column_module=replace(some.column_module, clock_energy_fj=7.0), clock_tree=ClockTree(1, 1.0, 1000.0))
+        with mock.patch.object(scene_power, "simulate", return_value=(design, counted)) as cls.simulate, \
+                mock.patch.object(scene_power, "uniform_mw", return_value=9.5) as cls.uniform, \
+                mock.patch.object(scene_power.activity, "energy", lambda scope, *_: cls.ENERGIES[scope.module]):
+            cls.power = scene_power.power(NAMED["poolpointer"], "dusk", some, folder, SimpleNamespace(typical=cls.library, slow=cls.library), folder, 5)
+
+    def test_each_part_is_scaled_to_the_array(self):
+        # fJ in 100 clocks of 330 MHz.
+        to_mw = 330e-6 / 100
+        part = self.power.streaming
+        for found, fj in ((part.columns, 50 * 150.0), (part.engines, 12 * 100.0), (part.control, 3 * 40.0),
+                          (part.sram, 50 * 400.0 + 6 * 80.0), (part.sram_reads, 50 * 250.0 + 6 * 8.0)):
+            self.assertAlmostEqual(found, fj * to_mw, places=9)
+        self.assertAlmostEqual(self.power.other.columns, 2 * part.columns, places=9)  # the same in half the clocks
+
+    def test_the_clock_is_the_trees_and_what_gates_pass(self):
+        always = (50 * 7.0 + 100.0 + 1000.0 * 1.1**2) * 330e-6
+        self.assertAlmostEqual(self.power.streaming.clock, always + (50 * 20.0 + 12 * 6.0) * 330e-6 / 100, places=9)
+        self.assertAlmostEqual(self.power.idle_mw, always + self.power.leakage_mw, places=9)
+
+    def test_everything_leaks(self):
+        nw = next(group.number("cell_leakage_power") for group in scene_power.liberty.read(self.library.path).children("cell") if group.name == "INV_X1")
+        column, engine = (sram_model.macro(size).leakage for size in (sram_model.Size(1, 100, 232), sram_model.Size(1, 160, 33)))
+        expected = (50 * nw + 3 * 4 * nw + 12 * 2 * nw) * 1e-6 + (50 * column + 6 * engine) * 1e-3
+        self.assertAlmostEqual(self.power.leakage_mw, expected, places=12)
+
+    def test_what_is_asked_of_the_steps(self):
+        chosen, finished, _, _, klux, seed = self.simulate.call_args.args
+        self.assertEqual((chosen.name, finished, klux, seed), ("poolpointer", {"finished": 1}, 2.0, 5))
+        # One net of the quad's one toggles 50 times in 100 clocks.
+        self.assertEqual((self.power.column_rate, self.uniform.call_args.args[3], self.power.uniform_mw), (0.5, 0.5, 9.5))
+
+    def test_a_phase_without_a_clock_stops(self):
+        counted = Activity({"": Scope("t"), "p0": Scope("a_quad_netlist")}, {STREAMING: 100})
+        with mock.patch.object(scene_power, "simulate", return_value=({"modules": {"t": module({}, {}, top=True) | {"cells": {
+                "i": cell("INV_X1", {"A": 3}, {"Y": 4})}}, "a_quad_netlist": module({}, {})}}, counted)), \
+                mock.patch.object(scene_power, "uniform_mw", return_value=0.0), self.assertRaisesRegex(FlowError, "no clock of the phase other"):
+            scene_power.power(NAMED["ezpointer"], "day", result("ezpointer"), Path(self.scratch.name),
+                              SimpleNamespace(typical=self.library, slow=self.library), Path(self.scratch.name), 1)
+
+
+class Steps(unittest.TestCase):
+    """What goes to the tools, and what the report and the table say."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.technology = SimpleNamespace(typical=SimpleNamespace(path=Path("typical.lib"), wire_load="typical wires"),
+                                          slow=SimpleNamespace(path=Path("slow.lib"), wire_load="slow wires"), kit=Path("kit"), root=ROOT)
+
+    def test_opensta_gets_the_rate_in_the_typical_corner(self):
+        for name, column, modules in (("ezpointer", "u_column", 200), ("poolpointer", "u_quad", 50)):
+            with mock.patch.object(scene_power.tools, "write_settings") as written, mock.patch.object(scene_power.tools, "run_sta") as sta, \
+                    mock.patch.object(scene_power.power_model, "data_mw", return_value=0.5):
+                self.assertEqual(scene_power.uniform_mw(NAMED[name], self.technology, self.folder, 0.125), 0.5 * modules)
+            self.assertEqual(written.call_args.args[1], {
+                "liberty_files": [Path("typical.lib"), Path("kit/sram40_typical.lib")], "netlist": self.folder / "static.v", "top": NAMED[name].top,
+                "wire_load": "typical wires", "period": "3.030303", "column": column, "activity": "0.125000"})
+            self.assertEqual(sta.call_args.args[0], ROOT / "synth/sta/power.tcl")
+
+    def test_the_small_array_is_a_module_of_columns_with_all_pixels(self):
+        for name, columns, engine in (("ezpointer", 1, None), ("poolpointer", 4, 4)):
+            case = scene_power.small_case(NAMED[name], 9)
+            self.assertEqual((case.configuration["SRAM_NUM"], case.configuration["PIXELS_PER_SRAM"], case.frames, case.seed), (columns, 160, (64,), 9))
+            self.assertEqual(case.configuration.parameters.get("ENGINE_COLUMNS") if engine else None, engine)
+
+    def test_a_clock_streams_if_a_word_is_offered_and_taken(self):
+        for ready, valid in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            self.assertEqual(scene_power._streams({"tdc_ready_o": ready, "tdc_valid_i": valid}), bool(ready and valid))
+        self.assertFalse(scene_power._streams({}))
+
+    def test_the_simulated_array_has_the_finished_column_in_place_of_its_own(self):
+        mapped = {"modules": {"a_column": module({}, {}), "t": module({}, {"c": cell("a_column", {}, {})}, top=True)}}
+        with mock.patch.object(scene_power, "elaborate") as elaborate, mock.patch.object(scene_power, "map_to_cells", return_value=mapped) as mapping, \
+                mock.patch.object(scene_power.floorplan, "finish") as finish, mock.patch.object(scene_power, "_write_verilog") as write, \
+                mock.patch.object(scene_power, "count_activity", return_value="counted") as count:
+            design, counted = scene_power.simulate(NAMED["ezpointer"], {"finished": 1}, self.technology, self.folder, 50.0, 3)
+        self.assertEqual((design["modules"]["a_column"], counted), ({"finished": 1}, "counted"))
+        self.assertEqual(elaborate.call_args.args[0], scene_power.small(NAMED["ezpointer"]))
+        self.assertEqual(mapping.call_args.args[3], run.EFFORTS[0])
+        self.assertEqual(finish.call_args.args[1:], (self.technology.slow, scene_power.sram_kit.PIN_FF, NAMED["ezpointer"]))
+        self.assertEqual((write.call_args.args[3], count.call_args.args[4]), ("static", 50.0))
+
+    def test_a_waveform_is_counted_while_it_is_written(self):
+        """A bench in place of the array's: the part in the netlist toggles three times, the clock rises four times."""
+        bench = """module dtof_array_bench; reg clk = 0; wire a; array u_netlist(.clk_i(clk), .tdc_ready_o(a));
+          initial begin repeat (8) #5 clk = !clk; $display("DTOF_PASS frames 1 results 1 clocks 4"); $finish(0); end endmodule
+          module array(input clk_i, output tdc_ready_o); part p0(.clk_i(clk_i), .q(tdc_ready_o)); endmodule
+          module part(input clk_i, output reg q = 0); always @(posedge clk_i) if ($time < 30) q <= !q; endmodule
+        """
+        design = {"modules": {"part": module({"clk_i": ("input", 2), "q": ("output", 5)}, {"r": cell("DFF_X1", {"CK": 2}, {"Q": 5})}),
+                              "array": module({"clk_i": ("input", 2), "tdc_ready_o": ("output", 5)}, {
+                                  "u_column": cell("part", {"clk_i": 2}, {"q": 5})}, top=True)}}
+        case = scene_power.simulation.Case(scene_power.small(NAMED["ezpointer"]), (64,), 3)
+
+        def compile_bench(_case, _root, folder, files, tops):
+            (folder / "bench.v").write_text(bench, encoding="utf-8")
+            subprocess.run(["iverilog", "-g2012", "-s", "dtof_array_bench", *(word for top in tops for word in ("-s", top)), "-o", "bench.vvp",
+                            "bench.v", *map(str, files)], cwd=folder, check=True)
+
+        with mock.patch.object(scene_power.simulation, "write_simulation_netlist", return_value=()), \
+                mock.patch.object(scene_power.simulation, "write_vectors") as vectors, \
+                mock.patch.object(scene_power.simulation, "compile_bench", compile_bench):
+            counted = scene_power.count_activity(design, case, self.technology, self.folder, 2.5)
+        self.assertEqual(vectors.call_args.args[3], ("--scene", "room", "--klux", "2.5"))
+        self.assertEqual(counted.clocks, {OTHER: 4})
+        self.assertEqual(set(counted.scopes), {"", "p0"})
+        self.assertEqual(counted.scopes["p0"].transitions[OTHER][5], 3)
+        self.assertFalse((self.folder / "activity.vcd").exists())
+
+    def found(self) -> list[scene_power.ScenePower]:
+        streaming = scene_power.Parts(70.0, 5.0, 1.0, 60.0, 40.0, 10.0, 50.0)
+        other = scene_power.Parts(7.0, 0.5, 0.1, 6.0, 4.0, 1.0, 5.0)
+        return [scene_power.ScenePower(NAMED["poolpointer"], light, 0.125, 65.0, streaming, replace(other, columns=columns), 12.0, 10.0, 5_500_000,
+                                       1_100_000) for light, columns in (("day", 7.0), ("dusk", 8.0))]
+
+    def test_the_report(self):
+        lines = scene_power.report(self.found(), {"poolpointer": result("poolpointer")}, "0123456789abcdef", 4).splitlines()
+        self.assertIn("| poolPointer | day | 0.12 | 70.0 | 65.0 | 5.0 | 1.0 | 60.0 | 40.0 | 10.0 | 186.0 | 6.0 |", lines)
+        # 330 MHz, 30 frames/s: 11e6 clocks. (186 x 5.5e6 + 18.6 x 1.1e6 + 12 x 4.4e6) / 330e6 = 3.322 mJ, of 32,000 pixels.
+        self.assertIn("| poolPointer | day | 186.0 | 18.6 | 12.0 | 10.0 | 50% | 10.0% | 3.32 | 104 | 99.7 | 98.9 |", lines)
+        self.assertIn("| poolPointer: at most 200 mW | 186.0 mW (day) | yes |", lines)
+        text = "\n".join(lines)
+        for words in ("`room` at 50 klux (day), 2 klux (dusk)", "330 MHz, typical corner, seed 4; inputs `0123456789ab`", "toggled 0.1 times a clock",
+                      "25% of the TDC slots", "A frame of 33333 acquisitions, 30 frames/s", "with 64 acquisitions"):
+            self.assertIn(words, text)
+        for above, line in zip(lines, lines[1:]):
+            if line.startswith("|---"):
+                self.assertEqual(above.count(" | "), line.count("|") - 2, above)
+
+    def test_the_worse_light_decides_a_goal(self):
+        found = self.found()
+        found[1] = replace(found[1], streaming=replace(found[1].streaming, columns=84.1))
+        self.assertIn("| poolPointer: at most 200 mW | 200.1 mW (dusk) | **no** |",
+                      scene_power.report(found, {"poolpointer": result("poolpointer")}, "0", 1).splitlines())
+
+    def test_the_table(self):
+        scene_power.write_csv(self.folder / "power.csv", self.found())
+        lines = (self.folder / "power.csv").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(lines[0].split(",")[5:9], ["phase", "columns_mw", "engines_mw", "control_mw"])
+        self.assertEqual(lines[1], "poolpointer,day,50,0.1250,65.000,streaming,70.000,5.000,1.000,60.000,50.000,40.000,10.000,186.000,5500000,3.3220")
+        self.assertEqual(lines[4].split(",")[:2] + lines[4].split(",")[5:8] + lines[4].split(",")[13:15],
+                         ["poolpointer", "dusk", "other", "8.000", "0.500", "19.600", "1100000"])
+        self.assertEqual(len(lines), 5)
+
+    def run_all(self, fails: str = "") -> tuple[list, list[str], list[str]]:
+        """(results, what was said, what began)"""
+        begun, said = [], []
+
+        def power(chosen, light, _result, run_folder, _technology, folder, _seed):
+            begun.append(f"{chosen.name} {light} {run_folder.name} {folder.name}")
+            if chosen.name == fails:
+                raise FlowError(f"{fails} fails")
+            return SimpleNamespace(name=f"{chosen.name} {light}", streaming=SimpleNamespace(total=1.5))
+
+        chosen = [NAMED[name] for name in ("ezpointer", "poolpointer")]
+        with mock.patch.object(scene_power, "power", power), mock.patch.object(scene_power, "ProcessPoolExecutor", ThreadPoolExecutor):
+            found = scene_power.run(chosen, dict.fromkeys(("ezpointer", "poolpointer")), Path("runs"), self.technology, self.folder, 1, 1, said.append)
+        return [one.name for one in found], said, begun
+
+    def test_long_simulations_begin_first_and_results_have_the_order_of_the_list(self):
+        found, said, begun = self.run_all()
+        self.assertEqual(found, ["ezpointer day", "ezpointer dusk", "poolpointer day", "poolpointer dusk"])
+        self.assertEqual(begun, [f"{name} {light} {name} {name}_{light}" for name in ("poolpointer", "ezpointer") for light in ("day", "dusk")])
+        self.assertEqual(sorted(line.split("] ")[1] for line in said), sorted(f"{name}, {light}: 1.5 mW" for name in ("poolpointer", "ezpointer")
+                                                                              for light in ("day", "dusk")))
+        self.assertEqual([line.split("]")[0] for line in said], ["[1/4", "[2/4", "[3/4", "[4/4"])
+
+    def test_the_first_failure_stops_all(self):
+        with self.assertRaisesRegex(FlowError, "poolpointer fails"):
+            self.run_all("poolpointer")
 
 
 if __name__ == "__main__":

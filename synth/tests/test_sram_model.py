@@ -52,14 +52,48 @@ class SramModel(unittest.TestCase):
             times = [macro(Size(ports, words, 10)).access_slow for words in (160, 1024, 5120, 10240)]
             self.assertEqual(times, sorted(times))
 
+    def test_figures_by_hand(self):
+        # One port: 7.7239e-4 x 160^0.66146 x (14 + 3.6932) pJ a read, 4.0184e-3 x 160^0.43953 x 14^1.06473 pJ a write and
+        # 5.1345e-6 x 160^0.96475 x 14^0.93028 mW of leakage. An access takes (160 / 10240)^0.18204 x (14 / 10)^0.16401 of the anchor's time.
+        for ports, slow, read, write, leakage in ((1, 1.09042, 0.392266, 0.621079, 8.00097e-3), (2, 1.11122, 0.573701, 0.675679, 9.29982e-3)):
+            found = macro(Size(ports, 160, 14))
+            for value, expected in ((found.access_slow, slow), (found.access_typical, slow * 1.2 / 2.2), (found.read_energy, read),
+                                    (found.write_energy, write), (found.leakage, leakage)):
+                self.assertAlmostEqual(value / expected, 1, delta=1e-5)
+
+    def test_organisations_by_hand(self):
+        # Narrow words: the array is made as square as the strips at its edges, 29 and 22.5 um wide, ask for; at most 512 rows, and at
+        # least 16 unless there are fewer words.
+        for words, bits, organisation in ((8, 1, (1, 1, 8)), (16, 1, (1, 1, 16)), (31, 1, (1, 2, 16)), (64, 1, (1, 4, 16)), (128, 1, (1, 8, 16)),
+                                          (512, 1, (1, 16, 32)), (2048, 1, (1, 32, 64)), (5120, 1, (1, 64, 80)), (8192, 8, (1, 16, 512)),
+                                          (40960, 1, (2, 64, 320)), (163840, 100, (64, 8, 487))):
+            found = macro(Size(1, words, bits))
+            self.assertEqual((found.banks, found.mux, found.rows), organisation, (words, bits))
+            self.assertAlmostEqual(found.width, found.banks * (29.0 + 0.242 / 0.30 * bits * found.mux))
+            self.assertAlmostEqual(found.height, 22.5 + 0.30 * found.rows)
+        self.assertEqual(macro(Size(1, 40960, 1)).organisation(), "2 banks of 320 rows x 64 columns, mux 64")
+        self.assertEqual(macro(Size(1, 31, 1)).organisation(), "16 rows x 2 columns, mux 2")
+
+    def test_a_given_multiplexer_is_taken_whatever_the_shape(self):
+        found = macro(Size(1, 100, 232), 2)
+        self.assertEqual((found.mux, found.rows, found.columns), (2, 50, 464))
+        self.assertGreater(found.width / found.height, 4)
+
+    def test_names_and_sizes(self):
+        self.assertEqual([(size.name, size.address_bits, size.capacity) for size in (Size(1, 160, 14), Size(2, 1, 3), Size(2, 1024, 8), Size(1, 1025, 1))],
+                         [("sram_1rw_160x14", 8, 2240), ("sram_1r1w_1x3", 1, 3), ("sram_1r1w_1024x8", 10, 8192), ("sram_1rw_1025x1", 11, 1025)])
+
     def test_large_memories_are_banked(self):
         found = macro(Size(2, 163840, 10))
         self.assertGreater(found.banks, 1)
         self.assertGreater(found.area, 163840 * 10 * 0.472)
 
     def test_impossible_size_is_refused(self):
-        with self.assertRaisesRegex(FlowError, "ports must be 1 or 2"):
-            macro(Size(3, 160, 10))
+        for size in (Size(3, 160, 10), Size(1, 0, 10), Size(1, 160, 0)):
+            with self.assertRaisesRegex(FlowError, "ports must be 1 or 2"):
+                macro(size)
+        with self.assertRaisesRegex(FlowError, "sram_1rw_4194304x1: no organisation with 16 to 512 rows .* up to 4 exists, even in 64 banks"):
+            macro(Size(1, 4194304, 1))
 
     @unittest.skipUnless((PDK / "sram_points").is_dir(), "../shared/pdk is not present")
     def test_laws_are_the_fit_of_the_cacti_points(self):
@@ -111,6 +145,7 @@ class SizesList(unittest.TestCase):
             sizes = [Size(1, 160, 6), Size(2, 5120, 10)]
             sram_kit.write_sizes(path, sizes)
             self.assertEqual(sram_kit.read_sizes(path), sizes)
+            self.assertEqual(path.read_text(encoding="utf-8").splitlines()[0][:24], "# Every SRAM size in use")
 
     def test_bad_lists_are_refused(self):
         for text in ("", "words,bits\n1,2\n", "ports,words,bits\n1,2\n", "ports,words,bits\n1,x,2\n"):

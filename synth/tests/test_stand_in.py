@@ -5,8 +5,9 @@ import re
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
-from dtof_synth import endpoints, library, netlist, sram_kit, stand_in, standard_cells, timing, tools, verilog
+from dtof_synth import endpoints, liberty, library, netlist, sram_kit, stand_in, standard_cells, timing, tools, verilog
 from dtof_synth.errors import FlowError
 
 from .small_netlists import cell, module
@@ -106,6 +107,38 @@ class StandIns(unittest.TestCase):
             "end": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 10}), "after": cell("DFFR_X1", {"D": 10, "RN": 3, "CK": 2}, {"Q": 11})})
         stand = stand_in.of(column, self.library, self.load)
         self.assertEqual(stand.cut, {"after/D"})
+
+    def test_a_loop_behind_an_input_ends(self):
+        column = module({"clk_i": ("input", 2), "told": ("input", 3)}, {
+            "x": cell("NAND2_X1", {"A1": 3, "A2": 11}, {"Y": 10}), "y": cell("INV_X1", {"A": 10}, {"Y": 11})})
+        self.assertEqual(set(stand_in.of(column, self.library, self.load).module["cells"]), {"x", "y"})
+
+    def test_bits_of_a_macros_pin_are_cut_one_by_one(self):
+        macro = cell("sram_1rw_4x2", {"clk_i": 2, "en_i": 3}, {"rdata_o": 12})
+        macro["connections"]["wdata_i"], macro["port_directions"]["wdata_i"] = [3, 10], "input"
+        column = module({"clk_i": ("input", 2), "told": ("input", 3)}, {"m": macro, "inside": cell("DFF_X1", {"D": 12, "CK": 2}, {"Q": 10})})
+        stand = stand_in.of(column, self.library, self.load)
+        self.assertEqual(stand.cut, {"m/wdata_i[1]"})
+        self.assertEqual(stand.module["cells"]["m"]["connections"]["wdata_i"], [3, "0"])
+
+    def test_what_hangs_on_an_output_inside_loads_it(self):
+        column = module({"clk_i": ("input", 2), "word": ("output", 5)}, {
+            "own": cell("DFF_X1", {"D": 10, "CK": 2}, {"Q": 5}), "late": cell("INV_X2", {"A": 5}, {"Y": 21}),
+            "end": cell("DFF_X1", {"D": 21, "CK": 2}, {"Q": 10})})
+        stand = stand_in.of(column, self.library, self.load)
+        self.assertEqual(set(stand.module["cells"]), {"own", f"{stand_in.LOAD_PREFIX}5"})
+        self.assertAlmostEqual(sum(stand.loads.values()), 2 * standard_cells.CINV_FF, delta=0.01)
+
+    def test_load_cells_are_named_by_hundredths_and_are_inputs_alone(self):
+        # Two pins of 1 and 2.25 fF and the wire of one of them; a pin alone has none; nothing is missing behind the third net.
+        cells, loads = stand_in._load_cells({5: [1.0, 2.25], 6: [1.0], 7: []}, SimpleNamespace(wire_ff_per_sink=0.5))
+        self.assertEqual(loads, {"load_375": 3.75, "load_100": 1.0})
+        self.assertEqual({name: (one["type"], one["connections"]) for name, one in cells.items()},
+                         {"load_5": ("load_375", {"A": [5]}), "load_6": ("load_100", {"A": [6]})})
+        written = liberty.parse(stand_in.liberty(stand_in.StandIn({}, loads, set()), 0.95), "t")
+        self.assertEqual(written.number("nom_voltage"), 0.95)
+        self.assertEqual([(one.name, one.groups[0].name, one.groups[0].get("direction"), one.groups[0].number("capacitance"))
+                          for one in written.children("cell")], [("load_100", "A", "input", 1.0), ("load_375", "A", "input", 3.75)])
 
     def test_a_mere_load_weighs_what_the_column_does_and_has_no_path(self):
         design = array()

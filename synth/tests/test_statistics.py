@@ -67,6 +67,7 @@ class Statistics(unittest.TestCase):
             with self.subTest(name=name):
                 self.assertEqual(statistics.cells(text), CELLS)
                 self.assertEqual(statistics.cells(statistics.last(text)), CELLS)
+                self.assertTrue(statistics.last(text).startswith("=== t ===\n"))
 
     def test_a_text_that_is_not_understood_is_no_empty_table(self):
         for text in ("", OLD.replace("Number of cells", "Cells"), OLD.replace("SB_DFF                         32", ""),

@@ -5,6 +5,7 @@ import re
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from dtof_synth import standard_cells, timing, tools
 from dtof_synth.errors import FlowError
@@ -23,11 +24,78 @@ class Slacks(unittest.TestCase):
         self.assertEqual((found.slack, found.hold_slack, found.fast_slack, found.fmax_mhz), (0.1, 0.2, 0.05, 400.0))
         margin = report.margin()
         self.assertEqual((margin.slack, margin.hold_slack, margin.reset_slack), (0.1, 0.2, 0.3))
+        self.assertEqual((margin.start, margin.end), ("a", "b"))
 
     def test_a_corner_without_a_check_of_the_reset_is_refused(self):
         output = "DTOF_MARGIN_SLACK 0.1 0.2\nDTOF_MARGIN_PATH_MAX\nStartpoint: a\nEndpoint: b\n 0.1  slack (MET)\nDTOF_RESET\nDTOF_END\n"
         with self.assertRaisesRegex(FlowError, "no check of the reset"):
             timing.Report(output, {}).margin()
+
+
+class Sections(unittest.TestCase):
+    """What each step of synth/sta/timing.tcl prints."""
+
+    def test_warnings_of_check_setup(self):
+        report = timing.Report("DTOF_CHECK\nWarning: There are 2 unconstrained endpoints.\n  a/D\n  b/D\nWarning: There is 1 unclocked register pin.\n"
+                               "  c/CK\nloop of gates\nDTOF_END\nDTOF_SLACK 1 2\n", {})
+        self.assertEqual(report.unchecked, {"unconstrained endpoints": ["a/D", "b/D"], "unclocked register pin": ["c/CK"], "loop of gates": []})
+
+    def test_steps_that_repair(self):
+        report = timing.Report("DTOF_SPARE\na/A 0.125\nb/B -0.5\nDTOF_END\nDTOF_RESIZED a_column i INV_X2\nDTOF_RESIZED top j INV_X4\n"
+                               "DTOF_DROPPED a_column k\nDTOF_RESIZED_SLACK 0.031\nDTOF_RESIZED_AREA -42.5\n", {})
+        self.assertEqual(report.spare, {"a/A": 0.125, "b/B": -0.5})
+        self.assertEqual(report.resized, [("a_column", "i", "INV_X2"), ("top", "j", "INV_X4")])
+        self.assertEqual((report.dropped, report.resized_slack, report.resized_area), ([("a_column", "k")], 0.031, -42.5))
+
+    def test_paths_that_are_too_early_without_those_to_a_port(self):
+        path = ("Startpoint: a\nEndpoint: {end}\n 0.00 0.00 ^ a/CK (DFF_X1)\n 0.05 0.05 ^ a/Q (DFF_X1)\n 0.00 0.05 ^ g/A1 (NAND2_X1)\n"
+                " 0.02 0.07 v g/Y (NAND2_X1)\n 0.00 0.07 v {end} (x)\n   0.07   data arrival time\n 0.00 0.10 ^ b/CK (DFF_X1)\n   -0.0300   slack (VIOLATED)\n")
+        report = timing.Report(f"DTOF_EARLY\n{path.format(end='b/D')}{path.format(end='q_o')}DTOF_END\n", {})
+        self.assertEqual(report.early, [timing.TimedPath(["g/A1", "b/D"], -0.03)])
+
+    def test_slow_edges_and_srams_are_counted(self):
+        path = "Startpoint: a\nEndpoint: b\n  0.30   data arrival time\n 0.1000   slack (MET)\n"
+        report = timing.Report(f"DTOF_SLACK 0.1 0.2\nDTOF_PATH_MAX\n{path}DTOF_TRANSITION\na VIOLATED\nb VIOLATED\nDTOF_MIN_PERIOD\nm 2.0 (VIOLATED)\n"
+                               "DTOF_END\nDTOF_CLOSING_PERIOD 2.0\nDTOF_FAST_SLACK -0.5\n", {})
+        self.assertEqual(report.timing(), timing.Timing(0.1, 0.2, -0.5, 500.0, "a", "b", 0, 2))
+        self.assertTrue(report.too_fast_for_sram)
+        self.assertFalse(timing.Report("DTOF_MIN_PERIOD\nm 2.0\nDTOF_END\nVIOLATED\n", {}).too_fast_for_sram)
+
+    def test_a_report_without_a_path_is_refused(self):
+        with self.assertRaisesRegex(FlowError, "no timing path"):
+            timing.Report("DTOF_PATH_MAX\nNo paths found.\nDTOF_END\n", {})._slowest_path("DTOF_PATH_MAX")
+
+
+class Measure(unittest.TestCase):
+    def measure(self, steps: tuple[str, ...], output: str = "") -> tuple[timing.Report, dict]:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / timing.NAMES).write_text('{"a_1_": "a[1]"}', encoding="utf-8")
+            files = timing.Netlist("some", folder / "t.v", folder / "t.spef", [Path("a.lib"), Path("b.lib")], "wires", "t")
+            with mock.patch.object(timing.tools, "write_settings") as written, \
+                    mock.patch.object(timing.tools, "run_sta", return_value=output) as self.sta:
+                found = timing.measure(files, ROOT, 330.0, folder / "sta.log", steps, {"more": ["x"]})
+            self.settings_file, settings = written.call_args.args
+            self.assertEqual((self.settings_file, settings.pop("netlist"), settings.pop("wires")),
+                             (folder / "sta.tcl", folder / "t.v", folder / "t.spef"))
+            return found, settings
+
+    def test_what_opensta_is_given(self):
+        # 330 and 500 MHz. Margins: the slew of an inverter with a fan-out of four, the load of ten inverters; a net toggles every ten clocks.
+        found, settings = self.measure(("margins",), "said")
+        self.assertEqual(settings, {
+            "steps": ["margins"], "liberty_files": [Path("a.lib"), Path("b.lib")], "top": "t", "wire_load": "wires",
+            "constraints": ROOT / "constraints/dtof.sdc", "margins": ROOT / "constraints/margins.sdc", "target_period": "3.030303",
+            "fast_period": "2.000000", "activity": 0.1, "slew": f"{standard_cells.FO4_NS:.4f}", "load": f"{10 * standard_cells.CINV_FF:.4f}",
+            "more": ["x"]})
+        self.assertEqual(self.sta.call_args.args[0], ROOT / "synth/sta/timing.tcl")
+        self.assertEqual((found.output, found.called), ("said", {"a_1_": "a[1]"}))
+
+    def test_a_clock_that_is_too_fast_for_an_sram_stops_the_flow(self):
+        output = "DTOF_MIN_PERIOD\nm (VIOLATED)\nDTOF_END\n"
+        self.measure(("margins",), output)
+        with self.assertRaisesRegex(FlowError, "some: the clock is faster than an SRAM's minimum period"):
+            self.measure(("nominal",), output)
 
 
 class Names(unittest.TestCase):

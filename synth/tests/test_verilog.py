@@ -60,6 +60,38 @@ class Verilog(unittest.TestCase):
                 self.assertEqual(found["modules"][name]["ports"]["a_i" if name == "block" else "x_i"].get("offset", 0),
                                  module["ports"]["a_i" if name == "block" else "x_i"].get("offset", 0))
 
+    def test_the_text(self):
+        self.assertEqual(verilog.write(design()), """module block (a_i, y_o);
+  input [5:4] a_i;
+  output y_o;
+  AND g (.A(a_i[4]), .B(a_i[5]), .Y(y_o));
+endmodule
+
+module array (x_i, y_o, handed_on_o, high_o);
+  input [1:0] x_i;
+  output y_o;
+  output handed_on_o;
+  output high_o;
+  wire wire_9;
+  assign handed_on_o = x_i[1];
+  assign high_o = 1'b1;
+  block u (.a_i({wire_9, x_i[1]}), .y_o(y_o));
+  AND t (.A(x_i[0]), .B(1'b0), .Y(wire_9));
+endmodule
+""")
+
+    def test_only_nets_of_wires_keep_their_names(self):
+        some = design()
+        for net, bits, name in (("other", [9], "net_9"), ("wire_9", [9, 10], "net_9"), ("wire_a", [9], "wire_a")):
+            some["modules"]["array"]["netnames"] = {net: {"bits": bits}, "wire_port": {"bits": [2]}}
+            text = verilog.write(some)
+            self.assertIn(f"  wire {name};\n", text)
+            self.assertNotIn("wire_port", text)
+        some["modules"]["macro"] = {"attributes": {}, "netnames": {}, "ports": {}, "cells": {}}
+        some["modules"]["block"]["ports"]["a_i"] = {"direction": "input", "bits": [2], "offset": 3}
+        self.assertNotIn("macro", verilog.write(some))
+        self.assertIn("  input [3:3] a_i;\n", verilog.write(some))
+
     def test_a_name_that_needs_an_escape_is_refused(self):
         bad = design()
         bad["modules"]["array"]["cells"]["u.v"] = bad["modules"]["array"]["cells"].pop("u")

@@ -23,6 +23,16 @@ class WideWords(unittest.TestCase):
             self.assertLess(min(ratios), wide_words.read_factor(bits))
             self.assertLess(wide_words.read_factor(bits), max(ratios))
 
+    def test_factors_by_hand(self):
+        # Series: 1.1954 and 1.5421 at 96 bits, 2.1986 and 2.0713 at 124, 4.8035 and 4.9542 at 232. Model: (bits + 3.6932) / 67.6932.
+        for bits, factor in ((96, 0.92943), (124, 1.13178), (232, 1.40125)):
+            self.assertAlmostEqual(wide_words.read_factor(bits), factor, delta=2e-4)
+
+    def test_the_table_has_every_point_beyond_those_fitted(self):
+        rows = [line for line in wide_words.lines() if re.match(r"\| \d", line)]
+        self.assertEqual(rows, ["| 64 x 96 | 1.20 | 1.47 | 1.23 |", "| 64 x 124 | 2.20 | 1.89 | 0.86 |", "| 64 x 256 | 5.43 | 3.84 | 0.71 |",
+                                "| 128 x 116 | 1.89 | 1.77 | 0.94 |", "| 128 x 256 | 5.68 | 3.84 | 0.68 |"])
+
     def test_the_model_grows_as_its_macros_do(self):
         narrow, wide = (sram_model.macro(sram_model.Size(1, 160, bits)) for bits in (64, 128))
         self.assertEqual(narrow.rows, wide.rows)
