@@ -20,7 +20,7 @@ TOLERANCE = 0.02  # of an area; of the clock's period for a slack
 EXPLANATIONS = Path("synth") / "yosys_versions.toml"
 FIGURES = ("column", "array", "slack")
 _VERSION = re.compile(r"\bYosys (\d\S*)")
-_COLUMNS = ("configuration", "column_um2", "other_column_um2", "array_mm2", "other_array_mm2", "slack_ns", "other_slack_ns")
+_COLUMNS = ("configuration", "yosys", "column_um2", "total_mm2", "slack_330_ns")
 
 
 @dataclass(frozen=True)
@@ -144,10 +144,11 @@ def report(own: Checkout, other: Checkout, named: dict[str, Configuration], foun
 
 
 def write_csv(path: Path, own: Checkout, other: Checkout) -> None:
+    """A row for each configuration and version."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["yosys", own.yosys, "other", other.yosys])
         writer.writerow(_COLUMNS)
-        for name, here in own.figures.items():
-            there = other.figures[name]
-            writer.writerow([name, here.column, there.column, here.array, there.array, here.slack, there.slack])
+        for name in own.figures:
+            for checkout in (own, other):
+                figures = checkout.figures[name]
+                writer.writerow([name, checkout.yosys, figures.column, figures.array, figures.slack])
