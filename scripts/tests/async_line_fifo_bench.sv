@@ -49,7 +49,7 @@ module bench;
     if (!over) begin
       $display("FAIL %0s at %0d", sentence, $time);
       over = 1'b1;
-      $finish;
+      $finish(0);
     end
   endtask
 
@@ -213,7 +213,7 @@ module bench;
           $display("PASS sent=%0d taken=%0d full=%0d empty=%0d ends=%0d skipped=%0d lost=%0d tdc_resets=%0d read_resets=%0d clocks=%0d",
                    sent, taken, full, empty, ends, skipped, lost, tdc_resets, read_resets, slow_clocks - from_clock);
         end
-        $finish;
+        $finish(0);
       end
     join
   end
