@@ -37,6 +37,8 @@ SIMULATE_SECONDS = 60
 USED_NAME = re.compile(r"^\s*(\w+) (?:#\(|u_\w+ \()|(\w+)::|`DTOF_TYPE\((\w+),|^\s*`DTOF_COLUMN\((\w+)\)", re.MULTILINE)
 INCLUDED = re.compile(r'^\s*`include "(\w+\.svh)"', re.MULTILINE)
 
+FAILED = re.compile(r"Assert(?:ion)? (\S+)(?: \(.*\))? failed")  # of Yosys 0.23, and of 0.52
+
 YOSYS_SCRIPT = """
 read_verilog -formal -sv {defines} -I{hdl}/common -I{formal} -defer {sources}
 {parameters}
@@ -212,10 +214,11 @@ def run_tool(command: list[str], folder: Path, log: str, cpu_seconds: int) -> tu
 
 
 def never_asserted(swept: Path) -> bool:
-    """Whether each output of an AIGER file is constant 0, so that nothing is left to prove."""
+    """Whether each output of a binary AIGER file is constant 0, so that nothing is left to prove."""
     header, *lines = swept.read_bytes().split(b"\n")
     _, _, _, latches, outputs, *_ = header.split()
-    return all(literal == b"0" for literal in lines[int(latches):int(latches) + int(outputs)])
+    literals = lines[int(latches):int(latches) + int(outputs)]
+    return bool(literals) and all(literal == b"0" for literal in literals)
 
 
 def abc(engine: str) -> list[str]:
@@ -230,7 +233,7 @@ def failing_assertion(proof: Proof, folder: Path) -> str:
     (folder / "counterexample.aiw").write_text("\n".join(["1", "b0", "0" * registers, *inputs, "."]) + "\n")
     script = SIMULATE_SCRIPT.format(clock="-multiclock" if proof.free_clock else "-clock clk_i")
     log, _ = run_tool(["yosys", "-p", script], folder, "simulate.log", SIMULATE_SECONDS)
-    failed = re.findall(r"Assert(?:ion)? (\S+)(?: \(.*\))? failed", log)
+    failed = FAILED.findall(log)
     if not failed:
         raise FormalError(f"the counterexample in {folder.relative_to(ROOT)} does not fail when it is replayed")
     # Registers of clk2fflogic are unknown in the first step of a replay, in which an assertion may fail that is right.
@@ -276,8 +279,7 @@ def solve(job: Job) -> Outcome:
     else:
         done = ("Property proved" if unbounded else f"No output asserted in {frames} frames") in log
         # ABC of Yosys 0.52 calls a property undecided of which scorr leaves nothing.
-        if "All outputs solved" in log and swept:
-            done = never_asserted(folder / "swept.aig")
+        done = done or (unbounded and "All outputs solved" in log and never_asserted(folder / "swept.aig"))
         outcome = Outcome("proved" if done else "unknown", seconds)
     if outcome.verdict != "unknown":
         kept.write_text(json.dumps({"key": key} | asdict(outcome)))
