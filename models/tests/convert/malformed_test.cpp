@@ -18,6 +18,8 @@
 namespace dtof {
 namespace {
 
+using namespace std::string_literals;
+
 struct MalformedFile {
   std::string what;
   std::string name;
@@ -92,8 +94,8 @@ std::vector<MalformedFile> MalformedTest::table() const {
       {"NPY with a second file behind", "a.npy", npy + npy, "a.npz",
        " shape (2, 2) of f8 needs 32 bytes, the file has 192"},
       {"NPY of objects", "a.npy",
-       std::string("\x93NUMPY\x01\x00\x46\x00", 10) +
-           "{'descr': '|O', 'fortran_order': False, 'shape': (1,), }             \n",
+       "\x93NUMPY\x01\x00\x46\x00"
+       "{'descr': '|O', 'fortran_order': False, 'shape': (1,), }             \n"s,
        "a.npz",
        " dtype '|O' is not one of i1, i2, i4, i8, u1, u2, u4, u8, f2, f4, f8, little- or big-endian"},
       {"NPZ cut by a lost connection", "a.npz", npz.substr(0, npz.size() / 3), "a.npy",
