@@ -91,7 +91,7 @@ class Scope:
     module: str = ""
     ports: dict[str, str] = field(default_factory=dict)    # INPUT or OUTPUT
     sources: dict[str, str] = field(default_factory=dict)  # what drives a net
-    registers: set[str] = field(default_factory=set)       # also memories
+    registers: dict[str, tuple[int, int] | None] = field(default_factory=dict)  # also memories, with the first and the last address
 
 
 @dataclass
@@ -148,7 +148,7 @@ def scopes_of(text: str, top: str) -> dict[str, Scope]:
     """Scopes of the top from Icarus Verilog's output."""
     paths: dict[str, str] = {}
     scopes: dict[str, Scope] = {}
-    names: dict[str, tuple[Scope, str]] = {}
+    names: dict[str, tuple[Scope, str, tuple[int, int] | None]] = {}
     here = Scope()
     for line in text.splitlines():
         if found := re.match(r'(S_\w+) \.scope (\w+)[\w.]*, "([^"]+)" "([^"]+)".*?(?:, (S_\w+))?;$', line):
@@ -160,14 +160,15 @@ def scopes_of(text: str, top: str) -> dict[str, Scope]:
         elif found := re.match(r' +\.port_info \d+ /(\w+) \d+ "(\w+)"', line):
             here.ports[found[2]] = found[1]
         elif found := re.match(r'(v\w+?)(?:_0)? \.(net|var|array)\S* "(\w+)", (.*)$', line):
-            names[found[1]] = (here, found[3])
+            bounds = re.match(r"(\d+) (\d+), ", found[4]) if found[2] == "array" else None
+            names[found[1]] = (here, found[3], (int(bounds[1]), int(bounds[2])) if bounds else None)
             if found[2] == "net":
                 here.sources[found[3]] = re.findall(r"\w+0x\w+", found[4])[0] if "0x" in found[4] else ""
             elif found[2] == "var":
                 here.sources[found[3]] = found[1]
         elif found := re.match(r" +%assign/\S+ (v\w+?)(?:_0)?, ", line):
-            scope, name = names[found[1]]
-            scope.registers.add(name)
+            scope, name, addresses = names[found[1]]
+            scope.registers[name] = addresses
     return scopes
 
 
@@ -397,6 +398,14 @@ class Checker:
                     if value not in self.states.get(entry.path(name), {}):
                         self.say(f"{path}: state {state}: supply {name} has no state {value}")
 
+    def isolation_of(self, root: str, port: str) -> list[Command]:
+        """The strategies for a port on the border of a domain; one that names the port comes before one for all."""
+        path, domain = inside(root, port), self.roots[root]
+        direction = "outputs" if self.design.scopes[root].ports[port] == "OUTPUT" else "inputs"
+        candidates = [entry for entry in self.by_name["set_isolation"] if entry.path(entry.one("-domain")[0]) == domain]
+        chosen = [entry for entry in candidates if path in [entry.path(name) for name in entry.one("-elements") if name]]
+        return chosen or [entry for entry in candidates if "-elements" not in entry.options and entry.one("-applies_to") == [direction]]
+
     def supply_of(self, domain: str) -> str:
         entry = self.declared["create_power_domain"][domain]
         handle, name = entry.one("-supply") if len(entry.one("-supply")) == 2 else ("", "")
@@ -472,9 +481,9 @@ class Checker:
             outer_supply = self.supplies.get(outer, "")
             for port, direction in self.design.scopes[root].ports.items():
                 if direction == "OUTPUT":
-                    self.check_port(root, port, domain, self.supplies[domain], outer_supply)
+                    self.check_port(root, port, self.supplies[domain], outer_supply)
                 elif outer and not self.comes_from_outside(root, port, outer):
-                    self.check_port(root, port, domain, outer_supply, self.supplies[domain])
+                    self.check_port(root, port, outer_supply, self.supplies[domain])
 
     def comes_from_outside(self, root: str, port: str, outer: str) -> bool:
         """Whether an input of an inner domain is wired to an input of the domain around it."""
@@ -484,14 +493,11 @@ class Checker:
         source = self.design.scopes[root].sources.get(port)
         return any(direction == "INPUT" and scope.sources.get(name) == source for name, direction in scope.ports.items())
 
-    def check_port(self, root: str, port: str, domain: str, source: str, sink: str) -> None:
+    def check_port(self, root: str, port: str, source: str, sink: str) -> None:
         path = inside(root, port)
         if not self.may_differ(source, sink):
             return
-        direction = "outputs" if self.design.scopes[root].ports[port] == "OUTPUT" else "inputs"
-        candidates = [entry for entry in self.by_name["set_isolation"] if entry.path(entry.one("-domain")[0]) == domain]
-        chosen = [entry for entry in candidates if path in [entry.path(name) for name in entry.one("-elements") if name]]
-        chosen = chosen or [entry for entry in candidates if "-elements" not in entry.options and entry.one("-applies_to") == [direction]]
+        chosen = self.isolation_of(root, port)
         if len(chosen) != 1:
             self.say(f"port {path}: {len(chosen)} isolations where one is needed")
             return
