@@ -7,7 +7,8 @@ import unittest
 from pathlib import Path
 
 import power_intent
-from power_intent import Design
+import upf
+from upf import Design
 
 ROOT = Path(__file__).resolve().parents[2]
 INTENT = ROOT / "constraints" / "power_intent"
@@ -74,7 +75,7 @@ FAULTS = {  # file, text, replacement, with a prior, what is said
 
 
 def design(top: str, readout: int | None, parameters: dict[str, int]) -> Design:
-    return power_intent.elaborate(top, parameters if readout is None else {"READOUT": readout} | parameters)
+    return upf.elaborate(top, parameters if readout is None else {"READOUT": readout} | parameters)
 
 
 class PowerIntent(unittest.TestCase):
@@ -84,7 +85,7 @@ class PowerIntent(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         cls.array = design("dtof_subsystem", READOUTS["HISPOINTER"], SMALL)
-        cls.pool = design("dtof_subsystem", power_intent.POOL, POOL_SMALL)
+        cls.pool = design("dtof_subsystem", upf.POOL, POOL_SMALL)
 
     def test_it_fits_both_subsystems(self) -> None:
         for separator in (".", "/"):
@@ -93,7 +94,7 @@ class PowerIntent(unittest.TestCase):
                     self.assertEqual(power_intent.problems(INTENT / "dtof_subsystem.upf", of, settings, separator), [])
 
     def test_it_fits_the_bare_array_of_every_readout(self) -> None:
-        arrays = [("dtof_array", number, SMALL) for number in READOUTS.values() if number != power_intent.POOL]
+        arrays = [("dtof_array", number, SMALL) for number in READOUTS.values() if number != upf.POOL]
         self.assertGreater(len(arrays), 8)
         for top, number, parameters in [*arrays, ("dtof_pool_pointer_array", None, POOL_SMALL)]:
             with self.subTest(top=top, number=number):
@@ -136,7 +137,7 @@ class PowerIntent(unittest.TestCase):
                                        ("g_pool.u_array", "tdc_ready_o", "1", "tdc_ready_o: clamp 0, but 1 between frames")):
             scopes = self.pool.scopes
             if not idle:
-                changed = power_intent.Scope(scopes[path].module, scopes[path].ports, scopes[path].sources | {name: "a gate"}, scopes[path].registers)
+                changed = upf.Scope(scopes[path].module, scopes[path].ports, scopes[path].sources | {name: "a gate"}, scopes[path].registers)
                 scopes = scopes | {path: changed}
             changes = {f"{path}.{name}": idle} if idle else {}
             changed_design = Design(self.pool.top, scopes, self.pool.idle | changes)

@@ -10,8 +10,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import power_intent
-from power_intent import Checker, Design, inside
+import upf
+from power_intent import Checker
+from upf import Design, inside
 
 ROOT = Path(__file__).resolve().parents[2]
 INTENT = ROOT / "constraints" / "power_intent" / "dtof_subsystem.upf"
@@ -22,7 +23,7 @@ HISPOINTER = 2
 
 def isolated(array: str, clamps: dict[str, str]) -> tuple[str, str]:
     """The array's text under another name, and a module of its own name around it, with clamps behind its outputs."""
-    text = next(power_intent.HDL.glob(f"*/{array}.sv")).read_text(encoding="utf-8")
+    text = next(upf.HDL.glob(f"*/{array}.sv")).read_text(encoding="utf-8")
     found = re.search(rf"^module {array}\b.*?\n\);\n", text, re.DOTALL | re.MULTILINE)
     assert found is not None
     head = found.group()
@@ -38,10 +39,10 @@ def isolated(array: str, clamps: dict[str, str]) -> tuple[str, str]:
 
 def simulated(design: Design, settings: dict[str, str]) -> dict[str, str]:
     """Files: the array with clamps, and SystemVerilog of what the power intent says happens when the array goes off and on again."""
-    checker = Checker(power_intent.execute(INTENT, design, settings), design)
+    checker = Checker(upf.execute(INTENT, design, settings), design)
     if problems := checker.run():
         raise AssertionError(problems)
-    array = next(path for path, scope in design.scopes.items() if scope.module in power_intent.ARRAYS)
+    array = next(path for path, scope in design.scopes.items() if scope.module in upf.ARRAYS)
 
     def of_bench(path: str) -> str:
         return f"u_dut.{array}.u_core{path[len(array):]}"
@@ -84,15 +85,15 @@ class PowerSimulation(unittest.TestCase):
 
     def build(self, readout: int, prior: int) -> Path:
         parameters = {"READOUT": readout, "PRIOR": prior} | SIZE
-        design = power_intent.elaborate("dtof_subsystem", parameters)
+        design = upf.elaborate("dtof_subsystem", parameters)
         for name, text in simulated(design, {"dtof_prior": str(prior)}).items():
             (self.folder / name).write_text(text, encoding="utf-8")
-        replaced = "dtof_pool_pointer_array.sv" if readout == power_intent.POOL else "dtof_array.sv"
-        listed = [file for file in (power_intent.HDL / "dtof.f").read_text(encoding="utf-8").splitlines() if file.endswith(".sv") and file[0] != "/"]
+        replaced = "dtof_pool_pointer_array.sv" if readout == upf.POOL else "dtof_array.sv"
+        listed = [file for file in (upf.HDL / "dtof.f").read_text(encoding="utf-8").splitlines() if file.endswith(".sv") and file[0] != "/"]
         files = [part for file in listed for part in ([self.folder / "core.sv", self.folder / "around.sv"] if file.endswith(f"/{replaced}") else [file])]
         program = self.folder / f"bench_{readout}.vvp"
         subprocess.run(["iverilog", "-g2012", "-I", self.folder, "-Icommon", "-s", "bench", f"-Pbench.READOUT={readout}", f"-Pbench.PRIOR={prior}",
-                        "-o", program, *files, BENCH], cwd=power_intent.HDL, check=True)  # fmt: skip
+                        "-o", program, *files, BENCH], cwd=upf.HDL, check=True)  # fmt: skip
         return program
 
     def run_bench(self, program: Path, **options: int) -> tuple[str, list[str]]:
@@ -112,7 +113,7 @@ class PowerSimulation(unittest.TestCase):
                 self.assertNotEqual(self.run_bench(program, off=1, fault=fault), ("PASS", expected))
 
     def test_a_frame_after_the_array_was_off_has_the_prior(self) -> None:
-        program = self.build(power_intent.POOL, 1)
+        program = self.build(upf.POOL, 1)
         verdict, expected = self.run_bench(program, prior=1)
         self.assertEqual(verdict, "PASS")
         self.assertEqual(self.run_bench(program, prior=1, off=1), ("PASS", expected))
