@@ -2,16 +2,17 @@
 // Frames of dtof_subsystem whose array is off between them, by the sequence of docs/user/power_intent.md. power_tasks.svh has the tasks that
 // clamp, corrupt, save and restore: scripts/tests/test_power_simulation.py writes them from the power intent.
 //
-// +off=1: the array is off after the first frame; +prior: OUTPUT.PRIOR; +fault: leaves out a step. Prints every word and PASS.
+// +off=1: the array is off after the first frame. +prior=1: OUTPUT.PRIOR. +fault=1: no clamps; 2: the memories of the prior lose their words;
+// 3: no ABORT; 4: the prior's flip-flop is not restored; 5: START before ABORT. Prints every word and PASS.
 
 module bench;
   parameter int READOUT = 0;
   parameter int PRIOR = 0;
-  localparam int COLUMNS = 4;
-  localparam int ROWS = 8;
+  localparam int COLUMNS = 2;
+  localparam int ROWS = 4;
   localparam int NP = 10;
   localparam int SLOTS = 2;
-  localparam int ACQUISITIONS = 24;
+  localparam int ACQUISITIONS = 16;
   localparam int FRAMES = 2;
 
   logic clk = 1'b0, rst_n = 1'b0;
@@ -23,7 +24,7 @@ module bench;
   logic pready, pslverr, irq, shot, sram_cfg, line_ready, result_valid, result_first, result_last;
   logic line_valid = 1'b0, line_last = 1'b0;
   logic [31:0] prdata;
-  logic [COLUMNS*NP-1:0] line = '0;
+  logic [8*((COLUMNS*NP+7)/8)-1:0] line = '0;
   logic [63:0] result;
 
   dtof_subsystem #(
@@ -117,7 +118,7 @@ module bench;
         both[(COLUMNS+column)*NP+:NP] = NP'((first < second) ? second : first);
       end
       for (slot = 0; slot < SLOTS; slot = slot + 1) begin
-        line = both[slot*COLUMNS*NP+:COLUMNS*NP];
+        line[COLUMNS*NP-1:0] = both[slot*COLUMNS*NP+:COLUMNS*NP];
         line_last = (row == ROWS - 1) && (slot == SLOTS - 1);
         line_valid = 1'b1;
         @(negedge clk);
@@ -128,7 +129,7 @@ module bench;
     end
   endtask
 
-  logic [31:0] value, count, watchdog;
+  logic [31:0] value, count;
   int frame, off, prior, fault;
 
   localparam logic [31:0] START = 32'd1 << dtof_registers_pkg::CONTROL_START_LSB;
@@ -167,8 +168,8 @@ module bench;
     repeat (12) @(posedge clk);
     write(dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
     if (READOUT == dtof_pkg::READOUT_POOLPOINTER) begin
-      write(dtof_registers_pkg::COARSE_END, 8);
-      write(dtof_registers_pkg::TRACK_END, 14);
+      write(dtof_registers_pkg::COARSE_END, 6);
+      write(dtof_registers_pkg::TRACK_END, 10);
     end
     write(dtof_registers_pkg::IRQ_ENABLE, 32'd1 << dtof_registers_pkg::IRQ_ENABLE_FRAME_LSB);
     if (prior != 0) write(dtof_registers_pkg::OUTPUT, (32'd1 << dtof_registers_pkg::OUTPUT_PRIOR_LSB) | (32'd1 << dtof_registers_pkg::OUTPUT_SMOOTH_LSB));
