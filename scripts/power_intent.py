@@ -86,7 +86,7 @@ class Checker:
             if entry.scope and port not in fed:
                 self.say(f"supply port {port} is not connected")
         for entry in self.by_name["create_supply_set"]:
-            functions = dict(entry.options["-function"])  # type: ignore[arg-type]
+            functions = dict(entry.options["-function"])
             if set(functions) != {"power", "ground"}:
                 self.say(f"supply set {entry.positional[0]} needs power and ground")
             for net in functions.values():
