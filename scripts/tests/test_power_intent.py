@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 INTENT = ROOT / "constraints" / "power_intent"
 SMALL = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 4}
 POOL_SMALL = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 8, "ENGINE_COLUMNS": 2, "PRIOR": 1}
+MEMORIES = {"RASTER_ORDER": 1, "BUFFER_LINES": 9, "PARITY": 1, "SECOND_TARGET": 1}  # the subsystem's own, which are always on
 PRIOR, NO_PRIOR = {"dtof_prior": "1"}, {"dtof_prior": "0"}
 READOUTS = {name: int(number) for name, number in re.findall(
     r"localparam int READOUT_(\w+) = (\d+);", (ROOT / "hdl/common/dtof_readouts.svh").read_text(encoding="utf-8"))}  # fmt: skip
@@ -87,7 +88,7 @@ class PowerIntent(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         cls.array = design("dtof_subsystem", READOUTS["HISPOINTER"], SMALL)
-        cls.pool = design("dtof_subsystem", upf.POOL, POOL_SMALL)
+        cls.pool = design("dtof_subsystem", upf.POOL, POOL_SMALL | MEMORIES)
 
     def test_it_fits_both_subsystems(self) -> None:
         for separator in (".", "/"):
