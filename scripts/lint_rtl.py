@@ -236,9 +236,10 @@ def main() -> int:
     configurations = load(ROOT / "configurations.toml").values()
     sources = {str(path.relative_to(ROOT)): path.read_text() for folder in ("hdl", "formal", "fpga", "examples")
                for path in sorted((ROOT / folder).rglob("*.sv"))}
+    included = {path.name: path.read_text() for folder in ("hdl", "formal") for path in sorted((ROOT / folder).rglob("*.svh"))}
     limits = parameter_limits()
     illegal = [sentence for _, _, sentence in limits if sentence]
-    failures = [*check_misread(sources), *check_nettype(sources), *rtl_rules.check(sources), *check_file_list(), *check_sentences(limits)]
+    failures = [*check_misread(sources), *check_nettype(sources), *rtl_rules.check(sources, included), *check_file_list(), *check_sentences(limits)]
     with ThreadPoolExecutor(max_workers=2) as pool:
         block_ram = pool.submit(check_block_rams)
         legal = pool.map(check_configuration, configurations)
