@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rules of the RTL's text find what is planted, and nothing else."""
 
+import subprocess
+import tempfile
 import unittest
 from pathlib import Path
 
+import lint_rtl
 import rtl_rules
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -105,6 +108,17 @@ class Rules(unittest.TestCase):
         self.assertEqual(text.count(include), 1)
         (found,) = rtl_rules.check({"a": text.replace(include, "")}, included)
         self.assertRegex(found, "defines `DTOF_READOUT_RANGE$")
+
+
+class Warnings(unittest.TestCase):
+    def test_a_port_of_another_width_is_found(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "top.sv").write_text("module leaf (input logic a_i);\nendmodule\n"
+                                                 "module top;\n  logic [62:0] wide;\n  leaf u_leaf (.a_i(wide));\nendmodule\n")  # fmt: skip
+            said = subprocess.run(["iverilog", "-g2012", "-t", "null", "-s", "top", "top.sv"], cwd=folder, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True, check=False)  # fmt: skip
+        self.assertEqual(said.returncode, 0, said.stdout)
+        self.assertRegex("".join(lint_rtl.sorry(said.stdout)), "expects 1 bits?, got 63")
 
 
 if __name__ == "__main__":
