@@ -14,7 +14,8 @@ RARE = {"clang", "clang-tidy", "chromium", "emscripten", "gcovr", "gtkwave", "li
 class Packages(unittest.TestCase):
     def setUp(self) -> None:
         text = re.sub(r" +#.*", "", SCRIPT.read_text(encoding="utf-8"))
-        self.common = set(re.search(r"^packages=\((.*?)^\)", text, re.MULTILINE | re.DOTALL)[1].split())
+        (common,) = re.findall(r"^packages=\((.*?)^\)", text, re.MULTILINE | re.DOTALL)
+        self.common = set(common.split())
         self.purposes = {name: set(packages.split())
                          for name, packages in re.findall(r"^ +(\w+)\)\s+(?:packages|optional)\+=\(([^)]*)\)", text, re.MULTILINE)}
 
