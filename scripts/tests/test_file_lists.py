@@ -188,7 +188,10 @@ proc set_property {name value object} { puts "$name $value $object" }
         expected = [f"-sv {HDL}/{file}" for file in [*package, *rest, *memories]]
         lines = result.stdout.splitlines()
         self.assertEqual([line for line in lines if line.startswith("-sv")], expected)
-        self.assertIn(f"include_dirs {HDL}/package sources_1", lines)
+        (includes,) = re.findall(r"^include_dirs (\S+) sources_1$", result.stdout, re.MULTILINE)
+        named = re.findall(r"^\+incdir\+(\S+)$", (HDL / "dtof.f").read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertEqual([includes], [f"{HDL}/{name}" for name in named])
+        self.assertTrue((Path(includes) / "dtof_macros.svh").is_file())
 
     def test_a_folder_without_memories_is_refused(self):
         result = self.sourced(f"dtof_read_rtl {ROOT}/docs")
