@@ -23,6 +23,7 @@ from pathlib import Path
 
 import case_tools as tools
 from case_tools import DTOF, ROOT, CaseError, depth_map, refused, require, require_depths, run, shell, succeed, with_shot
+from dtof_synth import program
 
 CASES = ROOT.parent / "shared" / "cases"
 HDL = ROOT / "hdl"
@@ -495,4 +496,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    program.run(lambda: main(sys.argv[1:]))

@@ -15,6 +15,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+from dtof_synth import program
 from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -151,4 +152,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -17,6 +17,8 @@ from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from dtof_synth import program
+
 ROOT = Path(__file__).resolve().parent.parent
 TEST_PLAN = ROOT / "docs" / "reference" / "testplan.md"
 GOAL_PERCENT = 98.0
@@ -166,4 +168,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -13,6 +13,7 @@ from pathlib import Path
 import file_lists
 import register_maps
 import registers
+from dtof_synth import program
 from dtof_synth.errors import FlowError
 from dtof_synth.readouts import Expression, Readout, Table, Top, evaluate, load
 from figures import reports
@@ -560,4 +561,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

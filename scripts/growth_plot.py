@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import plot_style
+from dtof_synth import program
 from dtof_synth.configuration import load
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -63,4 +64,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

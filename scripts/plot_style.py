@@ -8,7 +8,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from dtof_synth import readouts
+from dtof_synth import program, readouts
 
 FILE = Path(__file__).resolve().parent / "plot_styles.toml"
 
@@ -49,4 +49,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    program.run(main)

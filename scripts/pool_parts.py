@@ -13,6 +13,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from dtof_synth import program
 from figures.small import is_small, written_root
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -150,4 +151,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import plot_style
-from dtof_synth import rival_area
+from dtof_synth import program, rival_area
 from figures.small import is_small
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -235,7 +235,7 @@ def cost_section(lights: dict[str, list[Point]]) -> str:
 def best_within(points: Iterable[Point], budget: float) -> Point | None:
     """Point with the fewest errors within the budget; of equal points the smallest, then the one with least work."""
     within = [p for p in points if p.mm2 and p.mm2 <= budget]
-    return min(within, key=lambda p: (p.percent, p.mm2, p.operations), default=None)
+    return min(within, key=lambda p: (p.percent, p.mm2 or 0, p.operations or 0)) if within else None
 
 
 def sensor_section(sensors: dict[str, dict[str, list[Point]]]) -> str:
@@ -303,4 +303,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    program.run(main)

@@ -11,6 +11,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from dtof_synth import program
 from dtof_synth.configuration import Configuration, load
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -208,4 +209,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
 
-from dtof_synth import readouts
+from dtof_synth import program, readouts
 from dtof_synth.errors import FlowError
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -264,7 +264,7 @@ def main() -> int:
 
 if __name__ == "__main__":
     try:
-        sys.exit(main())
+        program.run(main)
     except FlowError as error:
         print(f"error: {error}", file=sys.stderr)
         sys.exit(1)
