@@ -76,7 +76,8 @@ def missing_pages(root: Path, files: set[str]) -> list[str]:
 
 
 def blocks(root: Path, files: set[str]) -> list[str]:
-    modules, sections = {}, {}
+    modules: dict[str, str] = {}
+    sections: dict[str, list[tuple[str, str]]] = {}
     for file in sorted(files):
         if file.endswith(".sv") and file.startswith(BLOCK_FOLDERS):
             modules |= dict.fromkeys(MODULE.findall(read(root / file)), file)

@@ -42,7 +42,7 @@ class Library:
 
 
 def libraries(root: Path, files: list[str]) -> dict[str, Library]:
-    found = {}
+    found: dict[str, Library] = {}
     for file in files:
         if not file.endswith("CMakeLists.txt") or file.partition("/")[0] not in ROOMS:
             continue

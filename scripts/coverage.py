@@ -133,10 +133,10 @@ def main() -> int:
 
     cpp_sums = [Counter(), Counter()]
     cpp_rows = []
-    for library, counters in cpp.items():
-        for total, counter in zip(cpp_sums, counters):
+    for library, of_library in cpp.items():
+        for total, counter in zip(cpp_sums, of_library):
             total.add(counter)
-        cpp_rows.append([f"`{library}`"] + [counter.text() for counter in counters])
+        cpp_rows.append([f"`{library}`"] + [counter.text() for counter in of_library])
     cpp_rows.append(["all"] + [counter.text() for counter in cpp_sums])
 
     explained = explanations()

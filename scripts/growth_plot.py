@@ -24,7 +24,8 @@ def script(rows: list[dict[str, str]], output: Path) -> str:
     styles = plot_style.load()
     titles = {configuration.readout: configuration.title for configuration in load(ROOT / "configurations.toml").values()
               if not configuration.variant_of}
-    blocks, plots = [], []
+    blocks: list[str] = []
+    plots: list[str] = []
     for metric, label in METRICS.items():
         for parameter, meaning in PARAMETERS.items():
             chosen = [row for row in rows if row["parameter"] == parameter]

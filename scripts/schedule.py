@@ -75,7 +75,7 @@ class Field:
 
 def structs(text: str) -> dict[str, list[tuple[str, str, int, str]]]:
     """Fields of every struct by type: name, width and meaning."""
-    found = {}
+    found: dict[str, list[tuple[str, str, int, str]]] = {}
     for body, name in STRUCT.findall(text):
         found[name] = []
         for line in body.splitlines():
