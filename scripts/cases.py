@@ -53,8 +53,8 @@ def slow_rule(function: Rule) -> Rule:
     return function
 
 
-def dtof(case: Case, *arguments: str | Path, **options: bytes) -> tools.Done:
-    return run(DTOF, *arguments, folder=case.work, **options)
+def dtof(case: Case, *arguments: str | Path, text: bytes | None = None) -> tools.Done:
+    return run(DTOF, *arguments, folder=case.work, text=text)
 
 
 def replay(case: Case, file: str | Path, *options: str | Path) -> tools.Done:
@@ -315,8 +315,9 @@ def sensor_wide(case: Case) -> None:
 
 @rule
 def module_names(case: Case) -> None:
-    own = [case.folder / "own_line_buffer.sv", with_shot(case.folder / "soc.sv", case.work)]
-    for files in (["-f", "dtof.f", *own], [*own, "-f", "dtof.f"]):
+    listed, own = ("-f", "dtof.f"), (case.folder / "own_line_buffer.sv", with_shot(case.folder / "soc.sv", case.work))
+    orders: tuple[tuple[str | Path, ...], ...] = ((*listed, *own), (*own, *listed))
+    for files in orders:
         # One of the two files of the case has a `timescale: Verilator would complain about the other.
         done = run("verilator", "--lint-only", "-Wno-TIMESCALEMOD", *files, "--top-module", "soc", folder=HDL)
         require("MODDUP" not in done.text, "a module of the user's has a name of the RTL's")
@@ -326,9 +327,10 @@ def module_names(case: Case) -> None:
 @rule
 def timescale(case: Case) -> None:
     chip = with_shot(case.folder / "soc.sv", case.work)
-    for files in (["-f", "dtof.f", chip], [chip, "-f", "dtof.f"]):
+    orders: tuple[tuple[str | Path, ...], ...] = (("-f", "dtof.f", chip), (chip, "-f", "dtof.f"))
+    for files in orders:
         succeed(run("verilator", "--lint-only", *files, "--top-module", "soc", folder=HDL))
-    bench = ["-f", "dtof.f", ROOT / "examples" / "example_bench.sv", "--top-module", "example_bench"]
+    bench: list[str | Path] = ["-f", "dtof.f", ROOT / "examples" / "example_bench.sv", "--top-module", "example_bench"]
     done = run("verilator", "--lint-only", "--timing", *bench, folder=HDL)
     require("TIMESCALEMOD" not in done.text, "TIMESCALEMOD of the example's bench")
 
@@ -387,7 +389,8 @@ def consumer(case: Case, prefix: Path, **environment: str) -> tools.Done:
         for library in ("readout", "sensor"):
             text = text.replace(f'#include "{library}/', f'#include "dtof/{library}/')
         file.write_text(text, encoding="utf-8")
-    return run("cmake", "-S", source, "-B", case.work / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", folder=case.work, **environment)
+    return run("cmake", "-S", source, "-B", case.work / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", folder=case.work,
+               text=None, **environment)
 
 
 @slow_rule
