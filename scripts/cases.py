@@ -207,7 +207,8 @@ def error_without_file_name(case: Case) -> None:
 @rule
 def photons_beyond_range(case: Case) -> None:
     late = (case.folder / "h_late.npy", "--bin-width", "1000")
-    for truth in ((), ("--truth", case.folder / "truth2.npy", "--offset", "0")):
+    truths: tuple[tuple[str | Path, ...], ...] = ((), ("--truth", case.folder / "truth2.npy", "--offset", "0"))
+    for truth in truths:
         refused(replay(case, *late, *truth), "h_late.npy: all 2000 photons of the pixels read are outside the range, 0 to 45 ns")
 
 

@@ -6,6 +6,7 @@ names only parameters and ports that the module has. The page of formats has the
 
 import csv
 import gzip
+import io
 import re
 import sys
 from pathlib import Path
@@ -105,9 +106,9 @@ def tables(root: Path, files: set[str]) -> list[str]:
                  for name, columns in TABLE_ROW.findall(read(root / FORMATS) if FORMATS in files else "")}
     found = []
     for file in sorted(file for file in files if file.startswith("reports/") and file.endswith((".csv", ".csv.gz"))):
-        opened = gzip.open if file.endswith(".gz") else open
-        with opened(root / file, "rt", newline="", encoding="utf-8") as table:
-            header = next(csv.reader(table), [])
+        content = (root / file).read_bytes()
+        text = (gzip.decompress(content) if file.endswith(".gz") else content).decode("utf-8")
+        header = next(csv.reader(io.StringIO(text, newline="")), [])
         if file not in described:
             found.append(f"{FORMATS}: {file} is not described")
         elif described[file] != header:

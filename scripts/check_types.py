@@ -3,7 +3,7 @@
 """Checks the types of every Python file of the project with mypy; the settings are in pyproject.toml.
 
 mypy refuses two modules with the same name, and each folder of tests is a package `tests`. The files are therefore checked in groups in which
-every name stands once.
+every name stands once. Only the tests of scripts/untyped_tests.txt are left out: no file may join them.
 """
 
 import subprocess
@@ -14,6 +14,7 @@ from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
 MYPY = "/usr/bin/mypy"
+UNTYPED = "scripts/untyped_tests.txt"
 
 
 def python_files(tree: SourceTree) -> list[str]:
@@ -62,9 +63,10 @@ def failures(root: Path, files: list[str]) -> list[str]:
 
 
 def main() -> int:
-    files = python_files(SourceTree(ROOT))
+    left_out = (ROOT / UNTYPED).read_text(encoding="utf-8").split()
+    files = [name for name in python_files(SourceTree(ROOT)) if name not in left_out]
     found = failures(ROOT, files)
-    print("".join(found) if found else f"mypy: {len(files)} files clean")
+    print("".join(found) if found else f"mypy: {len(files)} files clean, {len(left_out)} tests left out")
     return 1 if found else 0
 
 
