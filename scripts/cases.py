@@ -27,6 +27,7 @@ from dtof_synth import program
 
 CASES = ROOT.parent / "shared" / "cases"
 HDL = ROOT / "hdl"
+Words = tuple[tuple[str | Path, ...], ...]
 PIXELS = 16  # of the depth maps
 
 
@@ -207,7 +208,7 @@ def error_without_file_name(case: Case) -> None:
 @rule
 def photons_beyond_range(case: Case) -> None:
     late = (case.folder / "h_late.npy", "--bin-width", "1000")
-    truths: tuple[tuple[str | Path, ...], ...] = ((), ("--truth", case.folder / "truth2.npy", "--offset", "0"))
+    truths: Words = ((), ("--truth", case.folder / "truth2.npy", "--offset", "0"))
     for truth in truths:
         refused(replay(case, *late, *truth), "h_late.npy: all 2000 photons of the pixels read are outside the range, 0 to 45 ns")
 
@@ -316,8 +317,8 @@ def sensor_wide(case: Case) -> None:
 
 @rule
 def module_names(case: Case) -> None:
-    listed, own = ("-f", "dtof.f"), (case.folder / "own_line_buffer.sv", with_shot(case.folder / "soc.sv", case.work))
-    orders: tuple[tuple[str | Path, ...], ...] = ((*listed, *own), (*own, *listed))
+    own = (case.folder / "own_line_buffer.sv", with_shot(case.folder / "soc.sv", case.work))
+    orders: Words = (("-f", "dtof.f", *own), (*own, "-f", "dtof.f"))
     for files in orders:
         # One of the two files of the case has a `timescale: Verilator would complain about the other.
         done = run("verilator", "--lint-only", "-Wno-TIMESCALEMOD", *files, "--top-module", "soc", folder=HDL)
@@ -328,7 +329,7 @@ def module_names(case: Case) -> None:
 @rule
 def timescale(case: Case) -> None:
     chip = with_shot(case.folder / "soc.sv", case.work)
-    orders: tuple[tuple[str | Path, ...], ...] = (("-f", "dtof.f", chip), (chip, "-f", "dtof.f"))
+    orders: Words = (("-f", "dtof.f", chip), (chip, "-f", "dtof.f"))
     for files in orders:
         succeed(run("verilator", "--lint-only", *files, "--top-module", "soc", folder=HDL))
     bench: list[str | Path] = ["-f", "dtof.f", ROOT / "examples" / "example_bench.sv", "--top-module", "example_bench"]
@@ -390,8 +391,8 @@ def consumer(case: Case, prefix: Path, **environment: str) -> tools.Done:
         for library in ("readout", "sensor"):
             text = text.replace(f'#include "{library}/', f'#include "dtof/{library}/')
         file.write_text(text, encoding="utf-8")
-    return run("cmake", "-S", source, "-B", case.work / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", folder=case.work,
-               text=None, **environment)
+    return run("cmake", "-S", source, "-B", case.work / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", folder=case.work, text=None,
+               **environment)
 
 
 @slow_rule

@@ -108,7 +108,7 @@ def tables(root: Path, files: set[str]) -> list[str]:
     for file in sorted(file for file in files if file.startswith("reports/") and file.endswith((".csv", ".csv.gz"))):
         content = (root / file).read_bytes()
         text = (gzip.decompress(content) if file.endswith(".gz") else content).decode("utf-8")
-        header = next(csv.reader(io.StringIO(text, newline="")), [])
+        header: list[str] = next(csv.reader(io.StringIO(text, newline="")), [])
         if file not in described:
             found.append(f"{FORMATS}: {file} is not described")
         elif described[file] != header:
