@@ -17,7 +17,7 @@ from pathlib import Path
 
 import rtl_rules
 import slang
-from dtof_synth import readouts, statistics
+from dtof_synth import program, readouts, statistics
 from dtof_synth.configuration import Configuration, load
 from dtof_synth.errors import FlowError
 
@@ -25,8 +25,9 @@ ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 SIZE = slang.TOPS
 SUBSYSTEM = "dtof_subsystem"
-IN_FRONT = {"dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {},
-            "dtof_async_line_fifo": {"WIDTH": 12, "DEPTH": 2}}  # what stands in front of it
+IN_FRONT: dict[str, dict[str, int]] = {
+    "dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {},
+    "dtof_async_line_fifo": {"WIDTH": 12, "DEPTH": 2}}  # what stands in front of it
 DEMONSTRATOR = "demonstrator"  # an FPGA around it, in fpga/
 SOC = "soc"  # a chip around it, in examples/soc/
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"
@@ -264,4 +265,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -152,7 +152,9 @@ class Bender(unittest.TestCase):
 class Lists(unittest.TestCase):
     def test_the_list_without_srams_reads_as_its_head_says(self):
         text = (HDL / "dtof_no_srams.f").read_text(encoding="utf-8")
-        command = re.search(r"^// +(verilator .*)$", text, re.MULTILINE).group(1)
+        found = re.search(r"^// +(verilator .*)$", text, re.MULTILINE)
+        assert found is not None
+        command = found[1]
         command = command.replace("my_srams/", "technology/fpga/") + " -GSRAM_NUM=2 -GPIXELS_PER_SRAM=4 -GCLOCK_WAITS=0"
         for name, there in (("dtof_sram_1rw.sv", True), ("sram_9.sv", False)):
             result = subprocess.run(command.replace("dtof_sram_1rw.sv", name).split(), cwd=HDL, text=True, stdout=subprocess.PIPE,
