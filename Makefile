@@ -80,7 +80,7 @@ publish:
 	@scripts/publish.py frame $(if $(wildcard $(OUT)/tmf8820/summary.md),tmf8820)
 
 test: configure
-	@scripts/install_packages.sh browser python
+	@scripts/install_packages.sh browser python clang
 	@scripts/lint.sh --quick
 	@ninja -C $(BUILD)
 	@scripts/lint.sh --rtl
@@ -96,6 +96,7 @@ try-targets:
 	@scripts/try_targets.py $(OPTIONS) $(TARGETS)
 
 lint: configure
+	@scripts/install_packages.sh lint
 	@scripts/lint.sh --static-analysis
 
 lint-slang: | build_folder

@@ -33,8 +33,10 @@ class CMakeBuild(build_ext):
 work = ROOT / "build" / "setuptools"
 shutil.rmtree(work, ignore_errors=True)  # else a file that has gone would be packed again
 work.mkdir(parents=True)
+version = VERSION.search((ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))
+assert version is not None, "CMakeLists.txt states no version"
 setup(
-    version=VERSION.search((ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1],
+    version=version[1],
     ext_modules=[Extension("dtof._core", sources=[])],
     cmdclass={"build_ext": CMakeBuild},
     options={"egg_info": {"egg_base": "build/setuptools"}, "build": {"build_base": "build/setuptools"}},

@@ -23,9 +23,11 @@ from pathlib import Path
 
 import case_tools as tools
 from case_tools import DTOF, ROOT, CaseError, depth_map, refused, require, require_depths, run, shell, succeed, with_shot
+from dtof_synth import program
 
 CASES = ROOT.parent / "shared" / "cases"
 HDL = ROOT / "hdl"
+Words = tuple[tuple[str | Path, ...], ...]
 PIXELS = 16  # of the depth maps
 
 
@@ -52,8 +54,8 @@ def slow_rule(function: Rule) -> Rule:
     return function
 
 
-def dtof(case: Case, *arguments: str | Path, **options: bytes) -> tools.Done:
-    return run(DTOF, *arguments, folder=case.work, **options)
+def dtof(case: Case, *arguments: str | Path, text: bytes | None = None) -> tools.Done:
+    return run(DTOF, *arguments, folder=case.work, text=text)
 
 
 def replay(case: Case, file: str | Path, *options: str | Path) -> tools.Done:
@@ -206,7 +208,8 @@ def error_without_file_name(case: Case) -> None:
 @rule
 def photons_beyond_range(case: Case) -> None:
     late = (case.folder / "h_late.npy", "--bin-width", "1000")
-    for truth in ((), ("--truth", case.folder / "truth2.npy", "--offset", "0")):
+    truths: Words = ((), ("--truth", case.folder / "truth2.npy", "--offset", "0"))
+    for truth in truths:
         refused(replay(case, *late, *truth), "h_late.npy: all 2000 photons of the pixels read are outside the range, 0 to 45 ns")
 
 
@@ -314,8 +317,9 @@ def sensor_wide(case: Case) -> None:
 
 @rule
 def module_names(case: Case) -> None:
-    own = [case.folder / "own_line_buffer.sv", with_shot(case.folder / "soc.sv", case.work)]
-    for files in (["-f", "dtof.f", *own], [*own, "-f", "dtof.f"]):
+    own = (case.folder / "own_line_buffer.sv", with_shot(case.folder / "soc.sv", case.work))
+    orders: Words = (("-f", "dtof.f", *own), (*own, "-f", "dtof.f"))
+    for files in orders:
         # One of the two files of the case has a `timescale: Verilator would complain about the other.
         done = run("verilator", "--lint-only", "-Wno-TIMESCALEMOD", *files, "--top-module", "soc", folder=HDL)
         require("MODDUP" not in done.text, "a module of the user's has a name of the RTL's")
@@ -325,9 +329,10 @@ def module_names(case: Case) -> None:
 @rule
 def timescale(case: Case) -> None:
     chip = with_shot(case.folder / "soc.sv", case.work)
-    for files in (["-f", "dtof.f", chip], [chip, "-f", "dtof.f"]):
+    orders: Words = (("-f", "dtof.f", chip), (chip, "-f", "dtof.f"))
+    for files in orders:
         succeed(run("verilator", "--lint-only", *files, "--top-module", "soc", folder=HDL))
-    bench = ["-f", "dtof.f", ROOT / "examples" / "example_bench.sv", "--top-module", "example_bench"]
+    bench: list[str | Path] = ["-f", "dtof.f", ROOT / "examples" / "example_bench.sv", "--top-module", "example_bench"]
     done = run("verilator", "--lint-only", "--timing", *bench, folder=HDL)
     require("TIMESCALEMOD" not in done.text, "TIMESCALEMOD of the example's bench")
 
@@ -386,7 +391,8 @@ def consumer(case: Case, prefix: Path, **environment: str) -> tools.Done:
         for library in ("readout", "sensor"):
             text = text.replace(f'#include "{library}/', f'#include "dtof/{library}/')
         file.write_text(text, encoding="utf-8")
-    return run("cmake", "-S", source, "-B", case.work / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", folder=case.work, **environment)
+    return run("cmake", "-S", source, "-B", case.work / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", folder=case.work, text=None,
+               **environment)
 
 
 @slow_rule
@@ -495,4 +501,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    program.run(lambda: main(sys.argv[1:]))

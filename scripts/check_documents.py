@@ -6,11 +6,13 @@ names only parameters and ports that the module has. The page of formats has the
 
 import csv
 import gzip
+import io
 import re
 import sys
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+from dtof_synth import program
 from figures.source_tree import SourceTree
 from page import links, render
 
@@ -75,7 +77,8 @@ def missing_pages(root: Path, files: set[str]) -> list[str]:
 
 
 def blocks(root: Path, files: set[str]) -> list[str]:
-    modules, sections = {}, {}
+    modules: dict[str, str] = {}
+    sections: dict[str, list[tuple[str, str]]] = {}
     for file in sorted(files):
         if file.endswith(".sv") and file.startswith(BLOCK_FOLDERS):
             modules |= dict.fromkeys(MODULE.findall(read(root / file)), file)
@@ -103,9 +106,9 @@ def tables(root: Path, files: set[str]) -> list[str]:
                  for name, columns in TABLE_ROW.findall(read(root / FORMATS) if FORMATS in files else "")}
     found = []
     for file in sorted(file for file in files if file.startswith("reports/") and file.endswith((".csv", ".csv.gz"))):
-        opened = gzip.open if file.endswith(".gz") else open
-        with opened(root / file, "rt", newline="", encoding="utf-8") as table:
-            header = next(csv.reader(table), [])
+        content = (root / file).read_bytes()
+        text = (gzip.decompress(content) if file.endswith(".gz") else content).decode("utf-8")
+        header: list[str] = next(csv.reader(io.StringIO(text, newline="")), [])
         if file not in described:
             found.append(f"{FORMATS}: {file} is not described")
         elif described[file] != header:
@@ -126,4 +129,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -15,6 +15,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+from dtof_synth import program
 from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -41,7 +42,7 @@ class Library:
 
 
 def libraries(root: Path, files: list[str]) -> dict[str, Library]:
-    found = {}
+    found: dict[str, Library] = {}
     for file in files:
         if not file.endswith("CMakeLists.txt") or file.partition("/")[0] not in ROOMS:
             continue
@@ -151,4 +152,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

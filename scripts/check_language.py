@@ -11,6 +11,7 @@ import re
 import sys
 from pathlib import Path
 
+from dtof_synth import program
 from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -62,4 +63,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import rtl_text
+from dtof_synth import program
 
 ROOT = Path(__file__).resolve().parent.parent
 PREFIX = "dtof_"
@@ -54,4 +55,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

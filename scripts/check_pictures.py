@@ -7,6 +7,7 @@ import re
 import sys
 from pathlib import Path
 
+from dtof_synth import program
 from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -42,4 +43,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -17,6 +17,8 @@ from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from dtof_synth import program
+
 ROOT = Path(__file__).resolve().parent.parent
 TEST_PLAN = ROOT / "docs" / "reference" / "testplan.md"
 GOAL_PERCENT = 98.0
@@ -131,10 +133,10 @@ def main() -> int:
 
     cpp_sums = [Counter(), Counter()]
     cpp_rows = []
-    for library, counters in cpp.items():
-        for total, counter in zip(cpp_sums, counters):
+    for library, of_library in cpp.items():
+        for total, counter in zip(cpp_sums, of_library):
             total.add(counter)
-        cpp_rows.append([f"`{library}`"] + [counter.text() for counter in counters])
+        cpp_rows.append([f"`{library}`"] + [counter.text() for counter in of_library])
     cpp_rows.append(["all"] + [counter.text() for counter in cpp_sums])
 
     explained = explanations()
@@ -166,4 +168,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -5,6 +5,7 @@ FLIPS ?= $(if $(SMALL),3,300)
 
 coverage: | build_folder
 	@$(MAKE) --no-print-directory packages
+	@scripts/install_packages.sh coverage
 	@scripts/reports.py begin coverage
 	@scripts/coverage.sh
 	@scripts/reports.py record coverage

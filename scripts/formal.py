@@ -21,6 +21,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+from dtof_synth import program
 from rtl_text import without_comments
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -415,7 +416,7 @@ def main() -> int:
 
 if __name__ == "__main__":
     try:
-        sys.exit(main())
+        program.run(main)
     except FormalError as error:
         print(f"formal: {error}", file=sys.stderr)
         sys.exit(1)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import fpga_check
-from dtof_synth import statistics
+from dtof_synth import program, statistics
 from dtof_synth.errors import FlowError
 from figures.small import written_root
 
@@ -239,7 +239,7 @@ def main() -> int:
 
 if __name__ == "__main__":
     try:
-        sys.exit(main())
+        program.run(main)
     except FlowError as error:
         print(f"error: {error}", file=sys.stderr)
         sys.exit(1)

@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from dtof_synth import readouts, statistics
+from dtof_synth import program, readouts, statistics
 from dtof_synth.errors import FlowError
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -191,7 +191,7 @@ def main() -> int:
 
 if __name__ == "__main__":
     try:
-        sys.exit(main())
+        program.run(main)
     except FlowError as error:
         print(f"error: {error}", file=sys.stderr)
         sys.exit(1)

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import plot_style
+from dtof_synth import program
 from dtof_synth.configuration import load
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -23,7 +24,8 @@ def script(rows: list[dict[str, str]], output: Path) -> str:
     styles = plot_style.load()
     titles = {configuration.readout: configuration.title for configuration in load(ROOT / "configurations.toml").values()
               if not configuration.variant_of}
-    blocks, plots = [], []
+    blocks: list[str] = []
+    plots: list[str] = []
     for metric, label in METRICS.items():
         for parameter, meaning in PARAMETERS.items():
             chosen = [row for row in rows if row["parameter"] == parameter]
@@ -63,4 +65,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

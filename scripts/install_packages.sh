@@ -15,13 +15,16 @@ packages=(
   # RTL: simulation, lint, synthesis, timing
   verilator yosys iverilog opensta
   # scripts, plots, checks
-  python3 python3-numpy python3-markdown python3-yaml python3-pyflakes mypy gnuplot-nox clang-format clang-tidy gcovr
+  python3 python3-numpy python3-markdown python3-yaml python3-pyflakes mypy gnuplot-nox clang-format
 )
 
 optional=()  # taken where the release has them
 
 for purpose in "$@"; do
   case $purpose in
+    lint) packages+=(clang-tidy) ;;             # static analysis, for make lint only
+    coverage) packages+=(gcovr) ;;              # counts of lines that run, for make coverage only
+    clang) packages+=(clang) ;;                 # the second compiler of the C++ package, for make test only
     fuzz) packages+=(clang libclang-rt-dev) ;;  # libFuzzer, for make fuzz only
     fpga) packages+=(nextpnr-ice40 fpga-icestorm fpga-icestorm-chipdb) ;;  # places and routes the demonstrator, for make fpga only
     layout) packages+=(qflow qflow-tech-osu018) ;;  # with graywolf, qrouter, Magic, Netgen, for make layout only
@@ -37,7 +40,11 @@ for purpose in "$@"; do
     slang) packages+=(npm) ;;                   # fetches slang, for make lint-slang only
     playground)  # the models as WebAssembly, for make playground only
       packages+=(emscripten librange-v3-dev) ;;
-    *) echo "error: $purpose: packages for fuzz, fpga, layout, osu018, wave, sweep, slurm, browser, python, learning, page, slang and playground are known" >&2; exit 2 ;;
+    *)
+      echo "error: $purpose: packages for lint, coverage, clang, fuzz, fpga, layout, osu018, wave, sweep, slurm, browser, python, learning," \
+        "page, slang and playground are known" >&2
+      exit 2
+      ;;
   esac
 done
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# C++ format; names in Python; what is written from readouts.toml; the engine's schedule; figures on README.md and docs/; the pictures
+# C++ format; names and types in Python; what is written from readouts.toml; the engine's schedule; figures on README.md and docs/; the pictures
 # under reports/; links and pages of the documents; RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog.
 # --quick leaves out the RTL, which takes two minutes; --rtl leaves out everything else.
 # --static-analysis adds clang-tidy over all C++ (half an hour).
@@ -25,7 +25,7 @@ fi
 mapfile -t modules < <(scripts/list_files.py .py)
 /usr/bin/python3 -m pyflakes "${modules[@]}"
 echo "pyflakes: ${#modules[@]} files clean"
-/usr/bin/mypy --cache-dir build/mypy
+scripts/check_types.py
 
 scripts/generate.py --check
 echo "readouts.toml, registers.toml: everything written from them is up to date"

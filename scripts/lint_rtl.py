@@ -17,7 +17,7 @@ from pathlib import Path
 
 import rtl_rules
 import slang
-from dtof_synth import readouts, statistics
+from dtof_synth import program, readouts, statistics
 from dtof_synth.configuration import Configuration, load
 from dtof_synth.errors import FlowError
 
@@ -25,8 +25,9 @@ ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 SIZE = slang.TOPS
 SUBSYSTEM = "dtof_subsystem"
-IN_FRONT = {"dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {},
-            "dtof_async_line_fifo": {"WIDTH": 12, "DEPTH": 2}}  # what stands in front of it
+IN_FRONT: dict[str, dict[str, int]] = {
+    "dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {},
+    "dtof_async_line_fifo": {"WIDTH": 12, "DEPTH": 2}}  # what stands in front of it
 DEMONSTRATOR = "demonstrator"  # an FPGA around it, in fpga/
 SOC = "soc"  # a chip around it, in examples/soc/
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"
@@ -81,7 +82,7 @@ def check_read(what: str, top: str, parameters: dict[str, int]) -> list[str]:
         if result.returncode != 0:
             failures.append(f"{tool.__name__} refuses {what}:\n{result.stdout}")
         elif tool is icarus:
-            failures += [f"Icarus Verilog does not support this, and goes on: {line}" for line in sorry(result.stdout)]
+            failures += [f"Icarus Verilog goes on, but says: {line}" for line in sorry(result.stdout)]
     return failures
 
 
@@ -130,9 +131,9 @@ def check_subsystem(readout: int) -> list[str]:
 
 
 def sorry(output: str) -> list[str]:
-    """Messages of Icarus Verilog about omitted constructs, except known harmless ones."""
+    """Messages of Icarus Verilog about omitted constructs and warnings, such as a port of another width, except known harmless ones."""
     return [line for line in output.splitlines()
-            if "sorry" in line and not any(known in line for known in HARMLESS_SORRY)]
+            if ("sorry" in line or "warning:" in line) and not any(known in line for known in HARMLESS_SORRY)]
 
 
 def check_misread(sources: dict[str, str]) -> list[str]:
@@ -236,9 +237,10 @@ def main() -> int:
     configurations = load(ROOT / "configurations.toml").values()
     sources = {str(path.relative_to(ROOT)): path.read_text() for folder in ("hdl", "formal", "fpga", "examples")
                for path in sorted((ROOT / folder).rglob("*.sv"))}
+    included = {path.name: path.read_text() for folder in ("hdl", "formal") for path in sorted((ROOT / folder).rglob("*.svh"))}
     limits = parameter_limits()
     illegal = [sentence for _, _, sentence in limits if sentence]
-    failures = [*check_misread(sources), *check_nettype(sources), *rtl_rules.check(sources), *check_file_list(), *check_sentences(limits)]
+    failures = [*check_misread(sources), *check_nettype(sources), *rtl_rules.check(sources, included), *check_file_list(), *check_sentences(limits)]
     with ThreadPoolExecutor(max_workers=2) as pool:
         block_ram = pool.submit(check_block_rams)
         legal = pool.map(check_configuration, configurations)
@@ -263,4 +265,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -5,6 +5,14 @@
 import sys
 from pathlib import Path
 
+from dtof_synth import program
 from figures.source_tree import SourceTree
 
-print("\n".join(sorted(name for name in SourceTree(Path(__file__).resolve().parent.parent).files if name.endswith(tuple(sys.argv[1:])))))
+
+def main() -> None:
+    tree = SourceTree(Path(__file__).resolve().parent.parent)
+    print("\n".join(sorted(name for name in tree.files if name.endswith(tuple(sys.argv[1:])))))
+
+
+if __name__ == "__main__":
+    program.run(main)

@@ -13,6 +13,7 @@ few columns.
 import sys
 from pathlib import Path
 
+from dtof_synth import program
 from dtof_synth.configuration import Configuration, load
 from dtof_synth.errors import FlowError
 
@@ -66,4 +67,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -12,6 +12,8 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
+from dtof_synth import program
+
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = "docs/reference/maturity.md"
 TECHNOLOGY = "technology"  # its modules are stand-ins, which silicon replaces
@@ -118,4 +120,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

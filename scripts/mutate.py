@@ -10,9 +10,10 @@ import argparse
 import os
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+from dtof_synth import program
 from figures.small import written_root
 from mutation import cpp, report, rtl, subsystem, synthesis
 from mutation.explained import explain, load
@@ -21,7 +22,7 @@ from mutation.verdict import MutationError, Verdict
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "mutate"
 TABLE = written_root(ROOT) / "reports" / "mutants.csv"
-RUNS = {"C++": cpp.run, "RTL": rtl.run, "subsystem": subsystem.run, "synthesis": synthesis.run}
+RUNS: dict[str, Callable[[int, int, Path, int], list[Verdict]]] = {"C++": cpp.run, "RTL": rtl.run, "subsystem": subsystem.run, "synthesis": synthesis.run}
 COUNTS = {"C++": 200, "RTL": 160, "subsystem": 60, "synthesis": 20}  # synthesis: of each file
 
 
@@ -90,4 +91,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -10,13 +10,13 @@ Areas, clock and bits are those of `make synth` (reports/area.csv, timing.csv), 
 import csv
 import math
 import subprocess
-import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
 import plot_style
-from dtof_synth.configuration import load
+from dtof_synth import program
+from dtof_synth.configuration import Configuration, load
 from dtof_synth.goals import ARRAY_MM2
 from figures.small import written_root
 
@@ -46,7 +46,7 @@ class Scenes:
     """Figures of estimators by scene; figures over several scenes are weighted by pixels."""
 
     def __init__(self) -> None:
-        self.rows = {}
+        self.rows: dict[tuple[str, str, str, str], dict[str, str]] = {}
         for name in ("scenes_variants.csv", "scenes.csv"):
             for row in rows(name):
                 self.rows[row["sensor"], row["klux"], row["scene"], row["estimator"]] = row
@@ -61,8 +61,9 @@ class Scenes:
 
     def overall(self, klux: str, estimator: str) -> tuple[float, float] | None:
         """Share of errors above 3 % and relative rmse over all scenes except the flat ones."""
-        chosen = [self.rows.get((PRESET, klux, scene, estimator)) for scene in self.names(flats=False)]
-        if not chosen or None in chosen:
+        names = self.names(flats=False)
+        chosen = [row for name in names if (row := self.rows.get((PRESET, klux, name, estimator)))]
+        if not chosen or len(chosen) < len(names):
             return None
         pixels = sum(int(row["pixels"]) for row in chosen)
         above = sum(int(row["pixels"]) * float(row["above_3_percent"]) for row in chosen)
@@ -70,7 +71,7 @@ class Scenes:
         return above / pixels, math.sqrt(square / pixels)
 
 
-def estimator_title(configuration, base) -> str:
+def estimator_title(configuration: Configuration, base: Configuration) -> str:
     """Title as in `dtof-study scenes`: the read-out's title followed by the parameters that change results."""
     title = base.title
     for name in ("COUNT_WIDTH", "FRACTION_BITS", "WINDOW_CENTRED"):
@@ -102,8 +103,8 @@ def collect(scenes: Scenes) -> tuple[list[Point], list[str]]:
         if name not in area:
             missing.append(name)
             continue
-        accuracy = {light: scenes.overall(klux, estimator) for light, klux in LIGHTS.items()}
-        if None in accuracy.values():
+        accuracy = {light: found for light, klux in LIGHTS.items() if (found := scenes.overall(klux, estimator))}
+        if len(accuracy) < len(LIGHTS):
             missing.append(f"{name} (accuracy of {estimator})")
             continue
         row = area[name]
@@ -153,12 +154,12 @@ def goals(scenes: Scenes) -> list[tuple[str, str, str]]:
         parts, met = [], True
         for distance in metres:
             value = scenes.figure(klux, f"flat {distance} m", "poolPointer", column, preset)
-            if value is None:
+            bound = scenes.figure(klux, f"flat {distance} m", "poolPointer", "relative_bound", preset) if over_bound else 1.0
+            if value is None or bound is None:
                 parts.append(f"{distance} m not measured")
                 met = False
                 continue
-            if over_bound:
-                value /= scenes.figure(klux, f"flat {distance} m", "poolPointer", "relative_bound", preset)
+            value /= bound
             met = met and value <= limit
             parts.append(f"{distance} m {value:.2f}" if over_bound else f"{distance} m {100 * value:.2f} %")
         add(goal, "; ".join(parts), met)
@@ -175,8 +176,11 @@ def goals(scenes: Scenes) -> list[tuple[str, str, str]]:
               "above_10_percent", 1.0)
     pool, single = (scenes.figure("14", "isolated", name, "single_above_10_percent") for name in
                     ("poolPointer", "hisPointer"))
-    add("14 klux, isolated pixels at 3 m: kept as often as by hisPointer",
-        f"lost: {100 * pool:.2f} % (hisPointer {100 * single:.2f} %)", pool <= single)
+    isolated = "14 klux, isolated pixels at 3 m: kept as often as by hisPointer"
+    if pool is None or single is None:
+        add(isolated, "not measured", False)
+    else:
+        add(isolated, f"lost: {100 * pool:.2f} % (hisPointer {100 * single:.2f} %)", pool <= single)
     for name, bits, aim in (("poolpointer", 40, " (aim 1.15)"), ("poolpointer_lean", 20, "")):
         title = POOL_CONFIGURATIONS[name]
         if name not in area:
@@ -273,8 +277,8 @@ def draw(points: list[Point], metric: int, what: str, path: Path, references: Re
             if p.thesis_mm2:
                 marks.append(panel.at(p.thesis_mm2, y))
                 plots.append((p.thesis_mm2, y, THESIS_MARKER, 1.1, style.colour))
-        for name, values in references.items():
-            level = 100 * values[light][metric]
+        for name, figures in references.items():
+            level = 100 * figures[light][metric]
             reference_y = panel.at(x_range[0], level)[1]
             style = plot_style.style(name, styles)
             script.append(f"set arrow from graph 0, first {level} to graph 1, first {level} nohead dt {style.dash} "
@@ -346,10 +350,10 @@ def report(points: list[Point], missing: list[str], scenes: Scenes, references: 
 def main() -> int:
     scenes = Scenes()
     points, missing = collect(scenes)
-    references = {}
+    references: References = {}
     for name in REFERENCES:
-        references[name] = {light: scenes.overall(klux, name) for light, klux in LIGHTS.items()}
-        if None in references[name].values():
+        references[name] = {light: found for light, klux in LIGHTS.items() if (found := scenes.overall(klux, name))}
+        if len(references[name]) < len(LIGHTS):
             raise SystemExit(f"error: reports/scenes.csv has no '{name}' on every scene: run `make scenes`")
     with open(WRITTEN / "pareto.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -370,4 +374,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -18,6 +18,8 @@ from pathlib import Path
 
 import numpy as np
 
+from dtof_synth import program
+
 ACQUISITIONS = 3333
 NP = 10
 SLOTS = 2
@@ -129,4 +131,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    program.run(main)

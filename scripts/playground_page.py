@@ -7,10 +7,10 @@ Area and power are those of the committed reports (`make synth`, `make power`), 
 
 import csv
 import json
-import sys
 from pathlib import Path
 
 import plot_style
+from dtof_synth import program
 from dtof_synth.configuration import load
 from figures import store
 
@@ -83,4 +83,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -8,7 +8,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from dtof_synth import readouts
+from dtof_synth import program, readouts
 
 FILE = Path(__file__).resolve().parent / "plot_styles.toml"
 
@@ -27,9 +27,13 @@ class Style:
         return f"{self.points()} dashtype {self.dash}"
 
 
+def of_readout(title: str, entry: dict[str, str | int]) -> Style:
+    return Style(title, str(entry["colour"]), int(entry["marker"]), int(entry["dash"]))
+
+
 def load(file: Path = FILE) -> list[Style]:
     """Styles of the read-outs, then those in `file`."""
-    of_readouts = [Style(readout.title, **readout.style) for readout in readouts.load().readouts.values()]
+    of_readouts = [of_readout(readout.title, readout.style) for readout in readouts.load().readouts.values()]
     with file.open("rb") as opened:
         return of_readouts + [Style(**entry) for entry in tomllib.load(opened)["style"]]
 
@@ -49,4 +53,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    program.run(main)

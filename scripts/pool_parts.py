@@ -13,6 +13,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from dtof_synth import program
 from figures.small import is_small, written_root
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -107,9 +108,9 @@ def report(found: dict[tuple[str, str], dict[str, float]], shares: dict[tuple[st
               f"Pixels above 3 % / above 10 %, in %, if a part has no effect: scenes {', '.join(SCENES)}, sensor thesis, "
               f"{SEEDS} seeds, no look-up table; S1 is on, except in its own row.", "",
               "| part | without | " + " | ".join(f"{klux} klux" for klux in LIGHTS) + " |", "|---|---|" + "---:|" * len(LIGHTS)]
-    for part, what, estimator in accuracy_rows():
+    for instance, what, estimator in accuracy_rows():
         cells = (f"{100 * above_3:.2f} / {100 * above_10:.2f}" for above_3, above_10 in (shares[estimator, klux] for klux in LIGHTS))
-        lines.append(f"| {part.removeprefix('u_')} | {what} | " + " | ".join(cells) + " |")
+        lines.append(f"| {instance.removeprefix('u_')} | {what} | " + " | ".join(cells) + " |")
     return "\n".join([*lines, ""])
 
 
@@ -150,4 +151,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

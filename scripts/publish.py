@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from dtof_synth import program
 from figures import staleness
 from figures.reports import load
 from figures.small import written_root
@@ -26,6 +27,7 @@ def main() -> int:
     measured: dict[str, None] = {}
     for name in sys.argv[1:]:
         report = reports[name]
+        assert report.built is not None  # see above
         needed = [report.built, *(built for built, _ in report.with_it)]
         missing = [file for file in needed if not (root / "build" / file).is_file()]
         if missing:
@@ -47,4 +49,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

@@ -15,6 +15,7 @@ from collections import defaultdict
 from pathlib import Path
 
 import plot_style
+from dtof_synth import program
 from figures.small import is_small, written_root
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -166,4 +167,4 @@ Command: `make pulse-widths`
 
 
 if __name__ == "__main__":
-    main()
+    program.run(main)

@@ -9,6 +9,7 @@ import os
 import sys
 from pathlib import Path
 
+from dtof_synth import program
 from page.library import fetch
 from page.site import Site
 
@@ -33,4 +34,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

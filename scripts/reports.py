@@ -20,6 +20,7 @@ import sys
 from pathlib import Path
 
 import update_readme
+from dtof_synth import program
 from figures import hand_typed, references, staleness, store, tables
 from figures.reports import LIST, Report, ReportsError, load
 from figures.small import is_small, written_root
@@ -84,7 +85,7 @@ def figures(options: argparse.Namespace, known: dict[str, Report]) -> int:
                          if one.report.minutes < MINUTES_TO_BE_FRESH_ALWAYS])
 
 
-def stale(_: argparse.Namespace, known: dict[str, Report]) -> int:
+def stale(options: argparse.Namespace, known: dict[str, Report]) -> int:
     tree = SourceTree(ROOT)
     found = staleness.stale(ROOT, known, tree)
     for one in found.values():
@@ -101,7 +102,7 @@ def stale(_: argparse.Namespace, known: dict[str, Report]) -> int:
     return 0
 
 
-def stale_check(_: argparse.Namespace, known: dict[str, Report]) -> int:
+def stale_check(options: argparse.Namespace, known: dict[str, Report]) -> int:
     """Fails for stale figures in README.md or on the page of results, and for stale reports that take at most two minutes. A page with a
     stale mark is no error."""
     tree = SourceTree(ROOT)
@@ -165,4 +166,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

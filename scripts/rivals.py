@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import plot_style
-from dtof_synth import rival_area
+from dtof_synth import program, rival_area
 from figures.small import is_small
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -143,9 +143,9 @@ def front(points: Iterable[Point], value: Callable[[Point], float | None] = AXES
 def script(klux: str, points: list[Point], axis: Axis, output: Path) -> str:
     """Gnuplot script with numbered points and a legend of the numbers beside them."""
     styles = plot_style.load()
-    shown = sorted((p for p in points if axis.value(p)), key=lambda p: (axis.value(p), p.percent))
+    shown = sorted((p for p in points if axis.value(p)), key=lambda p: (axis.value(p) or 0, p.percent))
     level = lambda percent: max(percent, LEAST_PERCENT)  # noqa: E731
-    values = [axis.value(p) for p in shown]
+    values = [value for p in shown if (value := axis.value(p))]
     lines = [f"set terminal svg size {WIDTH},{HEIGHT} font 'sans,{FONT}' background '#ffffff'", f"set output '{output}'",
              "set logscale xy", "set grid lc rgb '#dddddd'", "unset key",
              f"set lmargin at screen {LEFT / WIDTH}", f"set rmargin at screen {1 - RIGHT / WIDTH}",
@@ -172,13 +172,12 @@ def script(klux: str, points: list[Point], axis: Axis, output: Path) -> str:
         lines.append(f"set label '{weight % number}  {p.title}, {x:.4g}' at screen {1 - (RIGHT - 15) / WIDTH}, "
                      f"{1 - (TOP + (number - 0.5) * height) / HEIGHT} left tc rgb '{colour}' font ',{min(11, height * 0.75):.1f}'")
     for p in points:
-        if p.kind == "reference" and p.bits is None:
-            style = plot_style.style(p.title, styles) if "filter" in p.title else None
-            if style:
-                lines.append(f"set arrow from graph 0, first {level(p.percent)} to graph 1, first {level(p.percent)} nohead "
-                             f"dt {style.dash} lc rgb '{style.colour}'")
-                lines.append(f"set label '{p.title}' at graph 0.98, first {level(p.percent)} right offset 0,0.5 "
-                             f"tc rgb '{style.colour}' font ',10'")
+        if p.kind == "reference" and p.bits is None and "filter" in p.title:
+            style = plot_style.style(p.title, styles)
+            lines.append(f"set arrow from graph 0, first {level(p.percent)} to graph 1, first {level(p.percent)} nohead "
+                         f"dt {style.dash} lc rgb '{style.colour}'")
+            lines.append(f"set label '{p.title}' at graph 0.98, first {level(p.percent)} right offset 0,0.5 "
+                         f"tc rgb '{style.colour}' font ',10'")
     lines.append("plot " + ", ".join(plots))
     return "\n".join(lines) + "\nset output\n"
 
@@ -235,7 +234,7 @@ def cost_section(lights: dict[str, list[Point]]) -> str:
 def best_within(points: Iterable[Point], budget: float) -> Point | None:
     """Point with the fewest errors within the budget; of equal points the smallest, then the one with least work."""
     within = [p for p in points if p.mm2 and p.mm2 <= budget]
-    return min(within, key=lambda p: (p.percent, p.mm2, p.operations), default=None)
+    return min(within, key=lambda p: (p.percent, p.mm2 or 0, p.operations or 0)) if within else None
 
 
 def sensor_section(sensors: dict[str, dict[str, list[Point]]]) -> str:
@@ -303,4 +302,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    program.run(main)

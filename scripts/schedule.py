@@ -11,6 +11,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from dtof_synth import program
 from dtof_synth.configuration import Configuration, load
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -74,7 +75,7 @@ class Field:
 
 def structs(text: str) -> dict[str, list[tuple[str, str, int, str]]]:
     """Fields of every struct by type: name, width and meaning."""
-    found = {}
+    found: dict[str, list[tuple[str, str, int, str]]] = {}
     for body, name in STRUCT.findall(text):
         found[name] = []
         for line in body.splitlines():
@@ -208,4 +209,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

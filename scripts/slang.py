@@ -12,6 +12,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from dtof_synth import program
+
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 READER = ROOT / "scripts" / "read_slang.mjs"
@@ -88,4 +90,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

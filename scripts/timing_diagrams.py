@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
 
-from dtof_synth import readouts
+from dtof_synth import program, readouts
 from dtof_synth.errors import FlowError
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -93,7 +93,9 @@ class Waveform:
 
 
 def waveform(vcd: str) -> Waveform:
-    wave, scope, values = Waveform(), [], {}
+    wave = Waveform()
+    scope: list[str] = []
+    values: dict[str, str] = {}
     tokens = iter(vcd.splitlines())
     for line in tokens:
         words = line.split()
@@ -127,9 +129,10 @@ def wavedrom(diagram: Diagram, wave: Waveform) -> dict:
     clocks = [clock for clock in wave.clocks if int(clock["diagram"], 2) == diagram.number]
     if not clocks:
         raise FlowError(f"{BENCH} has no diagram {diagram.number}")
-    lanes = [{"name": "clk_i", "wave": "p" + "." * (len(clocks) - 1)}]
+    lanes: list[dict[str, str | list[str]]] = [{"name": "clk_i", "wave": "p" + "." * (len(clocks) - 1)}]
     for lane in diagram.lanes:
-        letters, data, before = "", [], None
+        letters, before = "", ""
+        data: list[str] = []
         for clock in clocks:
             if lane.signal not in clock:
                 raise FlowError(f"{BENCH} has no signal {lane.signal}")
@@ -216,6 +219,8 @@ def frame_clocks() -> str:
         number = readout.number if readout.number is not None else table.tops[readout.top].readout
         if name not in (table.tops[readout.top].name, "poolpointer") and readout.number is None:
             continue  # a variant of the same hardware
+        if number is None:
+            raise FlowError(f"readouts.toml: {name} has no number")
         with tempfile.TemporaryDirectory() as folder:
             text = simulated(folder, FRAME | {"DIAGRAMS": 0, "READOUT": number})
         found = re.search(r"^cycles (\d+) lines (\d+)$", text, re.MULTILINE)
@@ -264,7 +269,7 @@ def main() -> int:
 
 if __name__ == "__main__":
     try:
-        sys.exit(main())
+        program.run(main)
     except FlowError as error:
         print(f"error: {error}", file=sys.stderr)
         sys.exit(1)

@@ -8,13 +8,14 @@ writes reports/trade.md, trade.csv and trade.svg. `trade.py --draw`: draws trade
 """
 
 import csv
+import math
 import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import plot_style
-from dtof_synth import growth
+from dtof_synth import growth, program
 from dtof_synth.configuration import load
 from dtof_synth.goals import ARRAY_MM2
 from figures.small import is_small, written_root
@@ -42,7 +43,7 @@ class Point:
     label: str
     variant: str
     figures: dict[str, float]
-    mm2: float | None = None
+    mm2: float = math.nan  # schedules have no area of their own
 
 
 def run_scenes(dtof: str, scenes: tuple[str, ...], klux: tuple[str, ...], columns: int, variants: list[str],
@@ -169,9 +170,15 @@ def change(tau: float, falls: str, rises: str) -> str:
     return f"{trend} (rank correlation {tau:+.2f})" if trend else f"no clear trend (rank correlation {tau:+.2f})"
 
 
+def numbers(point: Point, mark: str) -> tuple[int, int]:
+    """The two numbers of a label."""
+    first, second = point.label.split(mark)
+    return int(first), int(second)
+
+
 def schedule_sentence(schedules: list[Point]) -> str:
     """Sentence on the relation between the phases' lengths and the figures."""
-    phases = [(point, *(int(share) for share in point.label.split("/"))) for point in schedules]
+    phases = [(point, *numbers(point, "/")) for point in schedules]
     lost = rank_correlation([(coarse, point.figures["lost_14klux"]) for point, coarse, _ in phases])
     wrong = rank_correlation([(coarse, point.figures["outliers_50klux"]) for point, coarse, _ in phases])
     precision = rank_correlation([(64 - coarse - track, point.figures["bound_ratio_1m_14klux"])
@@ -183,7 +190,7 @@ def schedule_sentence(schedules: list[Point]) -> str:
 
 def candidate_sentence(candidates: list[Point]) -> str:
     """Sentence on the relation of the candidates' number and width to the figures, and on the effect of a score bit."""
-    sizes = {tuple(int(part) for part in point.label.split("x")): point for point in candidates}
+    sizes = {numbers(point, "x"): point for point in candidates}
     lost = rank_correlation([(labels, point.figures["lost_14klux"]) for (labels, _), point in sizes.items()])
     cost = rank_correlation([(labels, point.mm2) for (labels, _), point in sizes.items()])
     text = (f"With more candidates the single pixels lost show {change(lost, 'a fall', 'a rise')}, the area "
@@ -246,11 +253,11 @@ def main() -> int:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["variant", "total_mm2", *FIGURES])
         for point in schedules + candidates:
-            writer.writerow([point.variant, "" if point.mm2 is None else f"{point.mm2:.4f}",
+            writer.writerow([point.variant, "" if math.isnan(point.mm2) else f"{point.mm2:.4f}",
                              *(f"{point.figures[name]:.4f}" for name in FIGURES)])
     print("\n".join(lines))
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

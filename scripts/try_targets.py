@@ -22,7 +22,9 @@ import time
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+from dtof_synth import program
 from page.commands import targets
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -52,6 +54,12 @@ class Plan:
     long: str = ""
 
 
+def plan_of(name: str, entry: dict[str, Any]) -> Plan:
+    """The plan of an entry in TOML."""
+    values: dict[str, Any] = {key: tuple(value) if isinstance(value, list) else value for key, value in entry.items()}
+    return Plan(name, **values)
+
+
 def load(root: Path) -> dict[str, Plan]:
     """The list, with exactly the targets of the makefiles."""
     path = root / LIST
@@ -59,8 +67,7 @@ def load(root: Path) -> dict[str, Plan]:
         raise TryError(f"{LIST} is missing")
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
-        plans = {name: Plan(name, **{key: tuple(value) if isinstance(value, list) else value for key, value in entry.items()})
-                 for name, entry in table.items()}
+        plans = {name: plan_of(name, entry) for name, entry in table.items()}
     except (tomllib.TOMLDecodeError, TypeError) as error:
         raise TryError(f"{LIST}: {error}") from error
     known = targets(root)
@@ -237,4 +244,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

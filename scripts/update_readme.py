@@ -10,6 +10,7 @@ import sys
 import textwrap
 from pathlib import Path
 
+from dtof_synth import program
 from dtof_synth.configuration import Configuration, load
 from figures import store
 
@@ -117,4 +118,4 @@ def write(check: bool = False) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(write(check="--check" in sys.argv[1:]))
+    program.run(lambda: write(check="--check" in sys.argv[1:]))

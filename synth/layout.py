@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Entry point of the layout; see layout.mk for the targets."""
 
-import sys
-
+from dtof_synth import program
 from dtof_synth.layout.command import main
 
-sys.exit(main())
+program.run(main)

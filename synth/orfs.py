@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Entry point of the files for OpenROAD-flow-scripts; see layout.mk for the targets."""
 
-import sys
-
+from dtof_synth import program
 from dtof_synth.orfs import main
 
-sys.exit(main())
+program.run(main)

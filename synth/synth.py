@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Entry point of the synthesis flow; see synth.mk for the targets."""
 
-import sys
-
+from dtof_synth import program
 from dtof_synth.cli import main
 
-sys.exit(main())
+program.run(main)

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """The C++ package of the models as other projects meet it: installed and moved, in a program, a shared library and a test for it by
-name, and the source tree as a subfolder. CTest gives the build folder (DTOF_BUILD), the flags that the models were built with (DTOF_FLAGS)
-and the compiler (CXX)."""
+name, and the source tree as a subfolder, as a copy without a repository and as a folder that moves. CTest gives the build folder
+(DTOF_BUILD), the flags that the models were built with (DTOF_FLAGS) and the compiler (CXX)."""
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -17,6 +18,9 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 BUILD = Path(os.environ.get("DTOF_BUILD", ROOT / "build" / "cpp"))
 FLAGS = os.environ.get("DTOF_FLAGS", "")
+
+# Debian's package clang has the name without a version.
+CLANG = next(filter(None, (shutil.which(name) for name in ("clang++", *(f"clang++-{version}" for version in range(24, 13, -1))))), None)
 
 FIND = "cmake_minimum_required(VERSION 3.25)\nproject(consumer LANGUAGES CXX)\nfind_package(dtof 0.2 {how})\n"
 PLUGIN = """\
@@ -92,14 +96,20 @@ class Package(unittest.TestCase):
         headers = sorted(str(path.relative_to(self.prefix / "include")) for path in (self.prefix / "include").rglob("*.hpp"))
         self.assertGreater(len(headers), 50)
         self.assertTrue(all(name.startswith("dtof/") for name in headers), headers)
-        for internal in ("dtof/core/philox.hpp", "dtof/readout/pixelwise_model.hpp"):
-            self.assertNotIn(internal, headers)
+        internal = [f"dtof/{file.parent.name}/{name}" for file in sorted((ROOT / "models/dtof").glob("*/CMakeLists.txt"))
+                    for names in re.findall(r"\bINTERNAL ([\w. ]+)", file.read_text(encoding="utf-8")) for name in names.split()]  # fmt: skip
+        self.assertIn("dtof/core/philox.hpp", internal)
+        self.assertEqual(set(internal) & set(headers), set())
         compiler = os.environ.get("CXX", "c++")
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             done = list(pool.map(lambda name: run(compiler, "-std=c++23", "-fsyntax-only", f"-I{self.prefix / 'include'}", "-include", name,
                                                   "-x", "c++", "/dev/null"), headers))
         for name, one in zip(headers, done):
             self.assertEqual(one.returncode, 0, f"{name}: {one.stdout}")
+
+    def test_a_release_build_takes_a_newer_standard(self) -> None:
+        source = self.project("newer", SUBFOLDER, own='#include "dtof/core/random.hpp"\nstatic_assert(__cplusplus > 202002L);\nint main() {}\n')
+        self.build(source, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_STANDARD=23", "-DDTOF_WERROR=ON", target="own")
 
     def test_a_package_that_is_not_there_is_told_and_is_no_error_where_it_is_optional(self) -> None:
         source = self.project("quiet", FIND.format(how="QUIET") + 'message(STATUS "found: ${dtof_FOUND}")\n')
@@ -130,10 +140,63 @@ class Package(unittest.TestCase):
         self.assertNotIn("dtof_report", (binary / "build.ninja").read_text(encoding="utf-8"), "pictures need cairo and Python")
         self.assertFalse(list(binary.rglob("*_test*")), "a parent's build has none of the project's tests and programs")
 
-    @unittest.skipIf(shutil.which("clang++") is None, "clang++ is not here")
+    @unittest.skipIf(CLANG is None, "clang++ is not here")
     def test_clang_builds_the_core(self) -> None:
         source = self.project("clang", SUBFOLDER, own='#include "dtof/core/random.hpp"\nint main() {}\n')
-        self.build(source, "-DCMAKE_CXX_COMPILER=clang++", "-DDTOF_WERROR=ON", target="own")
+        self.build(source, f"-DCMAKE_CXX_COMPILER={CLANG}", "-DCMAKE_BUILD_TYPE=Release", "-DDTOF_WERROR=ON", target="own")
+
+
+class SourceTree(unittest.TestCase):
+    """The project itself, configured from outside."""
+
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def succeed(self, *command: str | Path, **environment: str) -> str:
+        done = run(*command, **environment)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return done.stdout
+
+    def commands(self, binary: Path) -> list[str]:
+        """How the models are compiled."""
+        commands = [one["command"] for one in json.loads((binary / "compile_commands.json").read_text(encoding="utf-8"))]
+        models = [command for command in commands if " -o models/dtof/" in command]
+        self.assertGreater(len(models), 10)
+        return models
+
+    def test_flags_and_launcher_of_the_caller_stay(self) -> None:
+        own = self.folder / "own"
+        self.succeed("cmake", "-S", ROOT, "-B", own, "-G", "Ninja", "-DDTOF_PROGRAMS=OFF", "-DDTOF_PYTHON=OFF", "-DCMAKE_BUILD_TYPE=Release",
+                     "-DCMAKE_CXX_FLAGS_RELEASE=-O3 -DOWN", "-DCMAKE_CXX_COMPILER_LAUNCHER=env")  # fmt: skip
+        for command in self.commands(own):
+            self.assertIn("-O3 -DOWN", command)
+            self.assertNotIn("-O2", command)
+            self.assertNotIn("-Werror", command)
+        self.assertNotIn("ccache", "".join((own / name).read_text(encoding="utf-8") for name in ("build.ninja", "CMakeFiles/rules.ninja")))
+
+    def test_warnings_are_errors_in_the_presets(self) -> None:
+        preset = self.folder / "preset"
+        self.succeed("cmake", "-S", ROOT, "--preset", "models", "-B", preset, "-DDTOF_PYTHON=OFF")
+        for command in self.commands(preset):
+            self.assertIn("-Werror", command)
+            self.assertIn("-O2", command)
+
+    def test_an_archive_is_configured_and_may_move(self) -> None:
+        """A copy of the project's files has no repository, and is not in one."""
+        first, second = self.folder / "first", self.folder / "second"
+        alone = {"GIT_CEILING_DIRECTORIES": str(self.folder), "MAKEFLAGS": ""}  # nor has it the options of the make that runs the tests
+        shutil.copytree(ROOT, first, symlinks=True, ignore=lambda folder, _: {".git", "build"} if Path(folder) == ROOT else {"__pycache__"})
+        listed = [set(self.succeed(folder / "scripts/list_files.py", ".cpp", ".py", **alone).splitlines()) for folder in (first, ROOT)]
+        self.assertGreater(len(listed[1]), 500)
+        self.assertLessEqual(listed[1], listed[0])
+        self.succeed("make", "-C", first, "configure", **alone)
+        first.rename(second)
+        self.succeed("make", "-C", second, "configure", **alone)
+        cache = (second / "build/cpp/CMakeCache.txt").read_text(encoding="utf-8")
+        self.assertIn(f"CMAKE_HOME_DIRECTORY:INTERNAL={second}\n", cache)
+        self.assertNotIn(str(first), cache)
 
 
 if __name__ == "__main__":

@@ -81,7 +81,7 @@ class DtofSubsystem(LiteXModule):
         apb = {"psel": Signal(), "penable": Signal(), "pwrite": Signal(), "paddr": Signal(ADDRESS_BITS), "pwdata": Signal(32),
                "pstrb": Signal(4)}
         answer = {"pready": Signal(), "prdata": Signal(32), "pslverr": Signal()}
-        channels = {}
+        channels: dict[str, Signal] = {}
         for name, to_subsystem in (("aw", True), ("w", True), ("b", False), ("ar", True), ("r", False)):
             channel = getattr(bus, name)
             channels |= {f"{'i' if to_subsystem else 'o'}_s_axi_{name}valid_{'i' if to_subsystem else 'o'}": channel.valid,

@@ -86,8 +86,8 @@ class Build:
                 shutil.copy(source, self.original / name)
         shutil.copytree(self.original, self.tree)
         flags = f"-O1 -include {HERE / 'live_mutant.hpp'} -w -Wno-error -Wno-narrowing"
-        command = ["cmake", "-S", self.tree, "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", "-DDTOF_PYTHON=OFF",
-                   f"-DCMAKE_CXX_FLAGS={flags}"]  # fmt: skip
+        command: list[str | Path] = ["cmake", "-S", self.tree, "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", "-DDTOF_PYTHON=OFF",
+                                    f"-DCMAKE_CXX_FLAGS={flags}"]  # fmt: skip
         self._run(command, "CMake refuses the copy with mutants")
 
     def _run(self, command: Sequence[str | Path], failure: str) -> None:
@@ -120,7 +120,7 @@ class Build:
             selection.refuse(refused)
 
     def _ninja(self, targets: Sequence[str]) -> subprocess.CompletedProcess:
-        command = ["ninja", "-k", "0", "-j", str(self.jobs), "-C", self.binary, *targets]
+        command: list[str | Path] = ["ninja", "-k", "0", "-j", str(self.jobs), "-C", self.binary, *targets]
         result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.log.write_text(result.stdout)
         return result
@@ -205,7 +205,7 @@ def same_object(build: Build, mutant: Mutant) -> bool:
         for variant in (text, changed):
             source = Path(scratch) / "source.cpp"
             source.write_text(variant)
-            command = ["g++", "-std=c++20", "-O2", "-w", "-I", includes, "-c", source, "-o", f"{scratch}/object"]
+            command: list[str | Path] = ["g++", "-std=c++20", "-O2", "-w", "-I", includes, "-c", source, "-o", f"{scratch}/object"]
             if subprocess.run(command, stderr=subprocess.DEVNULL).returncode != 0:
                 return False
             objects.append(Path(scratch, "object").read_bytes())
@@ -220,7 +220,7 @@ def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
     with ThreadPoolExecutor(jobs) as pool:
         seconds = dict(zip(LIBRARIES, pool.map(lambda library: unharmed(build, library), LIBRARIES)))
         verdicts = []
-        for verdict in pool.map(lambda item: judge(build, *item, seconds), numbered.items()):
+        for verdict in pool.map(lambda item: judge(build, item[0], item[1], seconds), numbered.items()):
             verdicts.append(verdict)
             progress.show(f"C++ mutants: {len(verdicts)} of {len(numbered)} judged")
     progress.done()

@@ -3,6 +3,7 @@
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 from mutation.mutant import Mutant
 from mutation.operators import Builder, binary_changes, conditions, swapped_choice
@@ -28,7 +29,7 @@ def mutants(name: str, text: str) -> list[Mutant]:
         if any(begin < mutant.end and mutant.begin < end for begin, end in untouched):
             continue
         constant = next((word for begin, end, word in constants if begin <= mutant.begin < end), None)
-        found.append(Mutant(**{**vars(mutant), "constant": constant}))
+        found.append(replace(mutant, constant=constant))
     return found
 
 
@@ -120,9 +121,9 @@ def _changed_statement(build: Builder, first: int) -> Iterator[Mutant]:
         other = "--" if source.at(first) == "++" else "++"
         yield build.change("arithmetic", first, last, other + whole[2:], statement=True)
     for index in range(first, last):
-        other = _OTHER_ASSIGNMENT.get(source.at(index))
-        if other and source.partner.get(index) is None:
-            mutated = f"{source.span(first, index - 1)} {other} {source.span(index + 1, last)}"
+        opposite = _OTHER_ASSIGNMENT.get(source.at(index))
+        if opposite and source.partner.get(index) is None:
+            mutated = f"{source.span(first, index - 1)} {opposite} {source.span(index + 1, last)}"
             yield build.change("arithmetic", first, last, mutated, statement=True)
             break
 

@@ -20,8 +20,8 @@ class Explanation:
     change: str
     source: str  # the line of the source on which the change begins, without blanks at its ends
     reason: str
-    above: str | None  # the line above that one, if the line alone stands in several places
-    equivalent: bool  # argued: no input can tell the mutant from the original
+    above: str | None = None  # the line above that one, if the line alone stands in several places
+    equivalent: bool = False  # argued: no input can tell the mutant from the original
 
     def fits(self, mutant: Mutant) -> bool:
         here = (self.file, self.change, self.source) == (mutant.file, mutant.change, mutant.source)
@@ -31,7 +31,7 @@ class Explanation:
 def load(path: Path = EXPLAINED) -> list[Explanation]:
     try:
         entries = tomllib.loads(path.read_text(encoding="utf-8")).get("mutant", [])
-        return [Explanation(**{"equivalent": False, "above": None, **entry}) for entry in entries]
+        return [Explanation(**entry) for entry in entries]
     except (OSError, TypeError, tomllib.TOMLDecodeError) as error:
         raise MutationError(f"{path}: {error}") from None
 

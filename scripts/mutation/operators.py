@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from mutation.mutant import Mutant
 from mutation.source import Source
 
-RELATIONAL = {
+Others = dict[str, tuple[str, ...]]  # by operator, what takes its place
+
+RELATIONAL: Others = {
     "<": ("<=", ">="),
     "<=": ("<", ">"),
     ">": (">=", "<="),
@@ -14,9 +16,9 @@ RELATIONAL = {
     "==": ("!=",),
     "!=": ("==",),
 }
-ARITHMETIC = {"+": ("-",), "-": ("+",), "*": ("/",), "/": ("*",), "%": ("/",)}
-BITWISE = {"&": ("|",), "|": ("&",), "^": ("|",)}
-LOGICAL = {"&&": ("||",), "||": ("&&",)}
+ARITHMETIC: Others = {"+": ("-",), "-": ("+",), "*": ("/",), "/": ("*",), "%": ("/",)}
+BITWISE: Others = {"&": ("|",), "|": ("&",), "^": ("|",)}
+LOGICAL: Others = {"&&": ("||",), "||": ("&&",)}
 SHIFTS = {"<<", ">>", ">>>", "<<<"}
 BINARY = {"relational": RELATIONAL, "arithmetic": ARITHMETIC, "bitwise": BITWISE, "logical": LOGICAL}
 
@@ -28,7 +30,7 @@ class Builder:
         self.source = source
         self._places = places  # of each token
 
-    def change(self, operator: str, first: int, last: int, mutated: str, **more) -> Mutant:
+    def change(self, operator: str, first: int, last: int, mutated: str, statement: bool = False) -> Mutant:
         """A mutant that replaces the tokens first to last."""
         tokens = self.source.tokens
         begin = tokens[first].begin
@@ -45,7 +47,7 @@ class Builder:
             source=lines[line - 1].strip(),
             above=lines[line - 2].strip() if line > 1 else "",
             place=self._places[first],
-            **more,
+            statement=statement,
         )
 
 

@@ -8,9 +8,10 @@ import tokenize
 from collections.abc import Iterator
 
 from mutation.mutant import Mutant
-from mutation.operators import ARITHMETIC, BITWISE, RELATIONAL
+from mutation.operators import ARITHMETIC, BITWISE, RELATIONAL, Others
 
-OTHERS = {
+Located = ast.expr | ast.stmt  # what has a place in the text
+OTHERS: dict[str, Others] = {
     "relational": {**RELATIONAL, "in": ("not in",), "not in": ("in",), "is": ("is not",), "is not": ("is",)},
     "arithmetic": {**ARITHMETIC, "//": ("*",), "**": ("*",)},
     "bitwise": {"&": ("|",), "|": ("&",), "^": ("|",)},
@@ -71,11 +72,11 @@ class Finder:
         """Position in the text; `column` counts bytes of UTF-8, as those of ast do."""
         return self._starts[line - 1] + len(self.lines[line - 1].encode()[:column].decode())
 
-    def span(self, node: ast.AST) -> tuple[int, int]:
-        begin = self.offset(node.lineno, node.col_offset)  # type: ignore[attr-defined]
-        return begin, self.offset(node.end_lineno, node.end_col_offset)  # type: ignore[attr-defined]
+    def span(self, node: Located) -> tuple[int, int]:
+        assert node.end_lineno is not None and node.end_col_offset is not None  # what was parsed has both
+        return self.offset(node.lineno, node.col_offset), self.offset(node.end_lineno, node.end_col_offset)
 
-    def source(self, node: ast.AST) -> str:
+    def source(self, node: Located) -> str:
         begin, end = self.span(node)
         return self.text[begin:end]
 
@@ -95,7 +96,7 @@ class Finder:
             statement=statement,
         )
 
-    def replaced(self, operator: str, node: ast.AST, mutated: str) -> Mutant:
+    def replaced(self, operator: str, node: Located, mutated: str) -> Mutant:
         return self.change(operator, *self.span(node), mutated)
 
     def symbols(self, whole: ast.expr, left: ast.expr, right: ast.expr, symbol: str) -> Iterator[Mutant]:
@@ -168,8 +169,8 @@ class Finder:
         elif isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.Not, ast.USub)):
             yield self.replaced("negation", node, f"({self.source(node.operand)})")
         elif isinstance(node, ast.IfExp):
-            condition, yes, no = (self.source(part) for part in (node.test, node.body, node.orelse))
-            yield self.replaced("choice", node, f"({no}) if ({condition}) else ({yes})")
+            test, yes, no = (self.source(part) for part in (node.test, node.body, node.orelse))
+            yield self.replaced("choice", node, f"({no}) if ({test}) else ({yes})")
         elif isinstance(node, ast.comprehension):
             for condition in node.ifs:
                 yield self.replaced("condition", condition, f"(not ({self.source(condition)}))")

@@ -116,8 +116,8 @@ def read_table(path: Path) -> tuple[dict[str, list[Verdict]], dict[str, int]]:
     try:
         with path.open(encoding="utf-8", newline="") as file:
             for row in csv.DictReader(file):
-                change = {name: row[name] for name in ("file", "original", "mutated", "operator", "source", "above")}
-                mutant = Mutant(line=int(row["line"]), begin=0, end=0, place=0, **change)
+                mutant = Mutant(file=row["file"], line=int(row["line"]), begin=0, end=0, original=row["original"], mutated=row["mutated"],
+                                operator=row["operator"], source=row["source"], above=row["above"], place=0)
                 parts.setdefault(row["language"], []).append(Verdict(mutant, row["verdict"], row["by"]))
                 seeds[row["language"]] = int(row["seed"])
     except (OSError, KeyError, ValueError) as error:

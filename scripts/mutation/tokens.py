@@ -45,7 +45,7 @@ def tokenise(text: str, language: str) -> list[Token]:
     return [
         Token(match.lastgroup, match.group(), match.start(), match.end())
         for match in _PATTERNS[language].finditer(text)
-        if match.lastgroup != "skipped"
+        if match.lastgroup is not None and match.lastgroup != "skipped"  # every pattern has a name
     ]
 
 

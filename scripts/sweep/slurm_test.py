@@ -10,7 +10,9 @@ import sys
 import tempfile
 import time
 import unittest
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 import plan
 from single_node_slurm import CannotStart, SingleNodeSlurm
@@ -33,9 +35,16 @@ readout = ["ezpointer", "hispointer", "sifh", "fifh"]
 """
 POINTS, BATCHES = 24, 12
 PATIENCE = 300  # seconds
+Found = TypeVar("Found")
 
 
 class Sweep(unittest.TestCase):
+    folder: Path
+    description: Path
+    note: Path
+    slurm: SingleNodeSlurm
+    local: bytes
+
     @classmethod
     def setUpClass(cls) -> None:
         temporary = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -68,7 +77,7 @@ class Sweep(unittest.TestCase):
             raise AssertionError(result.stderr[-2000:])
         return plan.table_file(cls.folder / name).read_bytes(), result.stdout
 
-    def start(self, name: str) -> subprocess.Popen:
+    def start(self, name: str) -> subprocess.Popen[bytes]:
         """Starts a sweep through Slurm, in a process group of its own."""
         log = (self.folder / f"{name}.log").open("w", encoding="utf-8")
         self.addCleanup(log.close)
@@ -79,7 +88,7 @@ class Sweep(unittest.TestCase):
         """Batch files and the time at which each was written."""
         return {path: path.stat().st_mtime_ns for path in (self.folder / name).glob("batches/*/*.json")}
 
-    def wait_for(self, what: str, ready, sweep: subprocess.Popen):
+    def wait_for(self, what: str, ready: Callable[[], Found], sweep: subprocess.Popen[bytes]) -> Found:
         end = time.monotonic() + PATIENCE
         while not (found := ready()):
             self.assertIsNone(sweep.poll(), f"the sweep ended before {what}")

@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 CHROMIUM = "chromium"
 SECONDS = 60  # for one answer: the machine may be busy
@@ -137,8 +138,8 @@ class Browser:
         self.evaluate("Promise.all([...document.images].map(i => { i.loading = 'eager';"
                       " return i.complete ? 0 : new Promise(r => { i.onload = i.onerror = r; }); })).then(() => 0)")
 
-    def evaluate(self, script: str) -> object:
-        """The value of the script; of what it promises."""
+    def evaluate(self, script: str) -> Any:
+        """The value of the script; of what it promises. Any value of JSON."""
         answer = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in answer:
             raise BrowserError(answer["exceptionDetails"]["exception"].get("description", "the script failed"))

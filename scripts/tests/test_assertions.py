@@ -35,7 +35,8 @@ class Assertions(unittest.TestCase):
         bench = (ROOT / BENCH).read_text(encoding="utf-8")
         bench = planted(bench, r"while \(!line_ready\) @\(negedge clk\);",
                         'while (!line_ready) begin @(negedge clk); if ($test$plusargs("fault_data")) line = ~line; end')
-        bench = planted(bench, r"#0\.1 penable = 1'b1;", '#0.1 penable = !$test$plusargs("fault_setup");')
+        bench = planted(bench, r"#0\.1 penable = 1'b1;",
+                        '#0.1 penable = !$test$plusargs("fault_setup"); if ($test$plusargs("fault_address")) paddr[2] = !paddr[2];')
         bench = planted(bench, r"#0\.1 psel = 1'b1;", '#0.1 psel = 1; penable = $test$plusargs("fault_no_setup");')
         (cls.folder / "bench.sv").write_text(bench, encoding="utf-8")
         subsystem = planted((ROOT / SUBSYSTEM).read_text(encoding="utf-8"), r"(\.tdc_valid_i\s*)\(([^)]*)\)", r"\1(\2 && !fault_gap)")
@@ -76,6 +77,7 @@ class Assertions(unittest.TestCase):
     def test_planted_faults_are_reported_with_the_side_that_is_at_fault(self) -> None:
         for fault, says in (("fault_data", "the source of lines changed tdata or tlast before tready"),
                             ("fault_setup", "the master's setup has no access behind it"),
+                            ("fault_address", "the master changed the address, the direction or the strobes within a transfer"),
                             ("fault_no_setup", "the master's access has no setup in front of it"),
                             ("fault_gap", "the source left a gap inside an acquisition")):
             with self.subTest(fault=fault):

@@ -37,7 +37,7 @@ class Names(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
             (root / "hdl" / "common").mkdir(parents=True)
-            (root / "hdl" / "dtof.f").write_text("// own\n+incdir+package\ncontroller.sv\n")
+            (root / "hdl" / "dtof.f").write_text("// own\n+incdir+common\ncontroller.sv\n")
             (root / "hdl" / "controller.sv").write_text("\nmodule controller;\nendmodule\n")
             (root / "hdl" / "common" / "dtof_a.svh").write_text("`define DTOF_A\n`define B\n")
             self.assertEqual(check_names.problems(root), ["hdl/controller.sv: the file's name lacks the prefix dtof_",
@@ -46,29 +46,48 @@ class Names(unittest.TestCase):
 
 
 class BesideAUser(unittest.TestCase):
-    """A user's modules come first and last in the list of files."""
+    """A user's modules come first and last in the list of files. Each tool reports a module of two definitions, so a clash does not pass."""
 
     @classmethod
     def setUpClass(cls) -> None:
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.user = Path(folder.name) / "user.sv"
-        modules = "".join(f"module {name} (input wire clk, output reg q);\n  always @(posedge clk) q <= !q;\nendmodule\n"
-                          for name in everyday_names())
-        tops = "module soc (input wire clk, output wire q);\n  line_buffer u (.clk(clk), .q(q));\nendmodule\n"
-        cls.user.write_text(modules + tops)
+        cls.clashing = Path(folder.name) / "clashing.sv"
+        module = "module {} (input wire clk, output reg q);\n  always @(posedge clk) q <= !q;\nendmodule\n"
+        top = "module soc (input wire clk, output wire q);\n  line_buffer u (.clk(clk), .q(q));\nendmodule\n"
+        cls.user.write_text("".join(module.format(name) for name in everyday_names()) + top)
+        cls.clashing.write_text(cls.user.read_text() + module.format("dtof_line_buffer"))
 
-    def read(self, *command: str) -> None:
+    def read(self, *command: str) -> str:
+        """What is wrong, or an empty text."""
         done = subprocess.run(command, cwd=HDL, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        text = done.stdout + done.stderr
+        return text if done.returncode != 0 or "MODDUP" in text else ""
+
+    def verilator(self, *files: str, top: str) -> str:
+        return self.read("verilator", "--lint-only", "-Wno-fatal", "-Wno-WIDTH", *files, "--top-module", top)
+
+    def icarus(self, user: Path) -> str:
+        return self.read("iverilog", "-g2012", "-t", "null", str(user), "-f", "dtof.f", "-s", "dtof_subsystem", "-s", "soc")
+
+    def yosys(self, *files: str) -> str:
+        return self.read("yosys", "-q", "-p", f"read_verilog -sv -Icommon {' '.join(files)}; hierarchy -check -top soc")
 
     def test_verilator(self) -> None:
-        options = ["verilator", "--lint-only", "-Wno-fatal", "-Wno-WIDTH"]
-        self.read(*options, str(self.user), "-f", "dtof.f", "--top-module", "dtof_subsystem")
-        self.read(*options, "-f", "dtof.f", str(self.user), "--top-module", "soc")
+        self.assertEqual(self.verilator(str(self.user), "-f", "dtof.f", top="dtof_subsystem"), "")
+        self.assertEqual(self.verilator("-f", "dtof.f", str(self.user), top="soc"), "")
+        self.assertIn("dtof_line_buffer", self.verilator(str(self.clashing), "-f", "dtof.f", top="soc"))
 
     def test_icarus(self) -> None:
-        self.read("iverilog", "-g2012", "-t", "null", str(self.user), "-f", "dtof.f", "-s", "dtof_subsystem", "-s", "soc")
+        self.assertEqual(self.icarus(self.user), "")
+        self.assertIn("dtof_line_buffer", self.icarus(self.clashing))
+
+    def test_yosys(self) -> None:
+        listed = [line for line in (HDL / "dtof.f").read_text(encoding="utf-8").splitlines() if line.endswith(".sv") and line[0] not in "/+"]
+        self.assertEqual(self.yosys(str(self.user), *listed), "")
+        self.assertEqual(self.yosys(*listed, str(self.user)), "")
+        self.assertIn("dtof_line_buffer", self.yosys(*listed, str(self.clashing)))
 
 
 if __name__ == "__main__":

@@ -152,7 +152,9 @@ class Bender(unittest.TestCase):
 class Lists(unittest.TestCase):
     def test_the_list_without_srams_reads_as_its_head_says(self):
         text = (HDL / "dtof_no_srams.f").read_text(encoding="utf-8")
-        command = re.search(r"^// +(verilator .*)$", text, re.MULTILINE).group(1)
+        found = re.search(r"^// +(verilator .*)$", text, re.MULTILINE)
+        assert found is not None
+        command = found[1]
         command = command.replace("my_srams/", "technology/fpga/") + " -GSRAM_NUM=2 -GPIXELS_PER_SRAM=4 -GCLOCK_WAITS=0"
         for name, there in (("dtof_sram_1rw.sv", True), ("sram_9.sv", False)):
             result = subprocess.run(command.replace("dtof_sram_1rw.sv", name).split(), cwd=HDL, text=True, stdout=subprocess.PIPE,
@@ -188,7 +190,10 @@ proc set_property {name value object} { puts "$name $value $object" }
         expected = [f"-sv {HDL}/{file}" for file in [*package, *rest, *memories]]
         lines = result.stdout.splitlines()
         self.assertEqual([line for line in lines if line.startswith("-sv")], expected)
-        self.assertIn(f"include_dirs {HDL}/package sources_1", lines)
+        (includes,) = re.findall(r"^include_dirs (\S+) sources_1$", result.stdout, re.MULTILINE)
+        named = re.findall(r"^\+incdir\+(\S+)$", (HDL / "dtof.f").read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertEqual([includes], [f"{HDL}/{name}" for name in named])
+        self.assertTrue((Path(includes) / "dtof_macros.svh").is_file())
 
     def test_a_folder_without_memories_is_refused(self):
         result = self.sourced(f"dtof_read_rtl {ROOT}/docs")

@@ -4,6 +4,7 @@ import unittest
 from pathlib import Path
 
 import generate
+import readouts_cpp
 from dtof_synth import readouts
 from dtof_synth.errors import FlowError
 
@@ -25,9 +26,9 @@ class Expressions(unittest.TestCase):
 
     def test_translations_mean_the_same(self):
         names = (str.lower, lambda name: f"{name}_of")
-        self.assertEqual(generate.translated("(1 << (NP - NB)) - 1", *names), "(1 << (np - nb)) - 1")
-        self.assertEqual(generate.translated("max(NB, NP / 2)", *names), "max_of(nb, (np / 2))")
-        self.assertEqual(generate.translated("(NP - 1) * (NB - 1)", *names), "(np - 1) * (nb - 1)")
+        self.assertEqual(readouts_cpp.translated("(1 << (NP - NB)) - 1", *names), "(1 << (np - nb)) - 1")
+        self.assertEqual(readouts_cpp.translated("max(NB, NP / 2)", *names), "max_of(nb, (np / 2))")
+        self.assertEqual(readouts_cpp.translated("(NP - 1) * (NB - 1)", *names), "(np - 1) * (nb - 1)")
 
 
 class Descriptions(unittest.TestCase):
@@ -41,19 +42,19 @@ class Descriptions(unittest.TestCase):
                       generate.columns(table))
         self.assertIn("thesis/dtof_first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
         self.assertIn("case Readout::kFirstPhoton:\n      return make_first_photon(parameters);",
-                      generate.model_table(table))
+                      readouts_cpp.model_table(table))
         self.assertIn("partitioned_histogram coarse_histogram pool_pointer first_photon)", generate.cmake(table))
-        self.assertIn("kFirstPhoton = 11,", generate.cpp_header(table))
-        self.assertIn('"first photon"', generate.cpp_source(table))
+        self.assertIn("kFirstPhoton = 11,", readouts_cpp.cpp_header(table))
+        self.assertIn('"first photon"', readouts_cpp.cpp_source(table))
         self.assertIn("set(DTOF_NUMBER_firstphoton 9)", generate.cmake(table))
         self.assertIn("9 first photon |", generate.defaults((ROOT / generate.CONFIGURATION).read_text(), table))
 
     def test_a_read_out_without_rtl_is_in_the_lists_of_models_alone(self):
         model_only = "\n".join(line for line in FIRST_PHOTON.splitlines() if not line.startswith(("number", "column")))
         table = readouts.parse(TEXT + model_only)
-        self.assertIn("return make_first_photon(parameters);", generate.model_table(table))
-        self.assertIn("kFirstPhoton = 11,", generate.cpp_header(table))
-        everything, thesis, hardware = re.split("k(?:Thesis|Rtl)Readouts", generate.cpp_header(table).split("kAllReadouts")[1])
+        self.assertIn("return make_first_photon(parameters);", readouts_cpp.model_table(table))
+        self.assertIn("kFirstPhoton = 11,", readouts_cpp.cpp_header(table))
+        everything, thesis, hardware = re.split("k(?:Thesis|Rtl)Readouts", readouts_cpp.cpp_header(table).split("kAllReadouts")[1])
         self.assertIn("kFirstPhoton", everything)
         self.assertNotIn("kFirstPhoton", thesis)
         self.assertNotIn("kFirstPhoton", hardware)
@@ -64,7 +65,7 @@ class Descriptions(unittest.TestCase):
 
     def test_a_changed_default_is_in_every_list(self):
         table = readouts.parse(TEXT.replace('defaults.NB = "min(NP, 6)"', 'defaults.NB = "min(NP, 7)"'))
-        self.assertIn("return std::min(np, 7);", generate.cpp_source(table))
+        self.assertIn("return std::min(np, 7);", readouts_cpp.cpp_source(table))
         self.assertIn("set(DTOF_DEFAULT_NB_pifh 3 4 5 6 7 7", generate.cmake(table))
 
     def test_bad_descriptions_are_refused(self):

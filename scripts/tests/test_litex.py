@@ -127,8 +127,9 @@ def stand_ins() -> dict[str, types.ModuleType]:
     return modules
 
 
-def load():
+def load() -> types.ModuleType:
     spec = importlib.util.spec_from_file_location("dtof_litex", ROOT / "examples/litex/dtof_litex.py")
+    assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

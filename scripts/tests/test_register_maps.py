@@ -70,8 +70,9 @@ def of_rdl(text: str) -> dict[str, Entry]:
 
 
 def of_ipxact(text: str) -> dict[str, Entry]:
-    def get(element: ElementTree.Element, path: str) -> str | None:
-        return element.findtext("/".join(f"ipxact:{part}" for part in path.split("/")), namespaces=NAMESPACE)
+    def get(element: ElementTree.Element, path: str) -> str:
+        """Text of an element inside; nothing if there is none."""
+        return element.findtext("/".join(f"ipxact:{part}" for part in path.split("/")), "", NAMESPACE)
 
     entries = {}
     for register in ElementTree.fromstring(text).iterfind(".//ipxact:register", NAMESPACE):
@@ -80,7 +81,7 @@ def of_ipxact(text: str) -> dict[str, Entry]:
             reset = get(field, "resets/reset/value")
             fields[get(field, "name")] = Bits(number(get(field, "bitOffset")), number(get(field, "bitWidth")),
                                               get(field, "modifiedWriteValue") or get(field, "access"),
-                                              None if reset is None else number(reset))  # fmt: skip
+                                              number(reset) if reset else None)  # fmt: skip
         entries[get(register, "name")] = Entry(number(get(register, "addressOffset")), number(get(register, "dim") or "1"), fields)
     return entries
 
@@ -88,15 +89,16 @@ def of_ipxact(text: str) -> dict[str, Entry]:
 def of_svd(text: str) -> dict[str, Entry]:
     entries = {}
     for register in ElementTree.fromstring(text).iterfind(".//register"):
-        value, mask = number(register.findtext("resetValue")), number(register.findtext("resetMask"))
+        value, mask = number(register.findtext("resetValue", "")), number(register.findtext("resetMask", ""))
         fields = {}
         for field in register.iterfind("fields/field"):
-            lowest, width = number(field.findtext("bitOffset")), number(field.findtext("bitWidth"))
+            lowest, width = number(field.findtext("bitOffset", "")), number(field.findtext("bitWidth", ""))
             bits = (1 << width) - 1
-            fields[field.findtext("name")] = Bits(lowest, width, field.findtext("modifiedWriteValues") or field.findtext("access"),
-                                                  (value >> lowest) & bits if (mask >> lowest) & bits == bits else None)
-        entries[register.findtext("name").replace("[%s]", "")] = Entry(
-            number(register.findtext("addressOffset")), number(register.findtext("dim") or "1"), fields)
+            access = field.findtext("modifiedWriteValues") or field.findtext("access", "")
+            fields[field.findtext("name", "")] = Bits(
+                lowest, width, access, (value >> lowest) & bits if (mask >> lowest) & bits == bits else None)
+        entries[register.findtext("name", "").replace("[%s]", "")] = Entry(
+            number(register.findtext("addressOffset", "")), number(register.findtext("dim") or "1"), fields)
     return entries
 
 
@@ -131,7 +133,9 @@ class Maps(unittest.TestCase):
 
     def test_only_registers_with_something_to_write_are_writable_in_the_rtl(self):
         text = (ROOT / "hdl/subsystem/dtof_registers_pkg.sv").read_text(encoding="utf-8")
-        condition = re.search(r"is_writable = (.*?);", text, re.DOTALL)[1].replace("&&", "and").replace("||", "or")
+        found = re.search(r"is_writable = (.*?);", text, re.DOTALL)
+        assert found is not None
+        condition = found[1].replace("&&", "and").replace("||", "or")
         condition = " ".join(condition.replace("12'h", "0x").split())
         for name, entry in of_svd(SVD.read_text(encoding="utf-8")).items():
             writable = eval(condition, {"offset": entry.offset})  # noqa: S307  (numbers and comparisons of our own file)

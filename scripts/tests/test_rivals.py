@@ -66,7 +66,9 @@ class Picture(unittest.TestCase):
     def test_the_best_within_an_area(self) -> None:
         points = self.with_hardware()
         self.assertIsNone(rivals.best_within(points, 1.0))
-        self.assertEqual(rivals.best_within(points, 100.0).title, "32-bin histogram")
+        best = rivals.best_within(points, 100.0)
+        assert best is not None
+        self.assertEqual(best.title, "32-bin histogram")
         section = rivals.sensor_section({"mine": {"50": points}})
         area = f"{points[1].mm2:.2f} mm2"
         self.assertIn(f"| mine | in the sun, 50 klux | - | - | - | 32-bin histogram: 10.00 +-7.50 ({area}) |", section)

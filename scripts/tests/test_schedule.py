@@ -34,8 +34,9 @@ class Commands(unittest.TestCase):
             schedule.structs(TWO.replace("  // a word is read", ""))
 
     def test_clocks(self) -> None:
-        for clocks, text in (({3}, "3"), ({0, 8, 16, 24}, "0, 8, 16, 24"), (set(range(7, 39)), "7 to 38"),
-                             ({4, 5, 8}, "4 to 5, 8"), (set(range(0, 32, 4)), "0, 4, ..., 28"), (set(), "")):
+        cases: list[tuple[set[int], str]] = [({3}, "3"), ({0, 8, 16, 24}, "0, 8, 16, 24"), (set(range(7, 39)), "7 to 38"),
+                             ({4, 5, 8}, "4 to 5, 8"), (set(range(0, 32, 4)), "0, 4, ..., 28"), (set(), "")]
+        for clocks, text in cases:
             self.assertEqual(schedule.ranges(clocks), text)
 
 

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The report's sentences follow the figures."""
 
+import math
 import unittest
 
 import trade
 
 
-def point(label: str, lost: float, wrong: float, ratio: float = 1.5, mm2: float | None = None) -> trade.Point:
+def point(label: str, lost: float, wrong: float, ratio: float = 1.5, mm2: float = math.nan) -> trade.Point:
     return trade.Point(label, label, {"lost_14klux": lost, "outliers_50klux": wrong, "bound_ratio_1m_14klux": ratio}, mm2)
 
 

@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 
 from dtof_synth import standard_cells, tools
+from dtof_synth.errors import found_in
 
 ROOT = Path(__file__).resolve().parents[2]
 PERIOD_NS = 3.0
@@ -54,13 +55,13 @@ class Constraints(unittest.TestCase):
         section = (output or self.output).split(f"MODE {mode}\n")[1].split("MODE ")[0]
         found = {}
         for text in section.split("Startpoint: ")[1:]:
-            found[text.split(maxsplit=1)[0], re.search(r"Endpoint: (\S+)", text).group(1)] = text
+            found[text.split(maxsplit=1)[0], found_in("OpenSTA", r"Endpoint: (\S+)", text)[1]] = text
         return found
 
     def external(self, start: str, end: str, mode: str = "max", output: str = "") -> float:
         """ns that the port's budget takes of a path."""
         text = self.paths(mode, output)[start, end]
-        return abs(float(re.search(r"(-?[\d.]+) +-?[\d.]+ +[v^]? ?(?:input|output) external delay", text).group(1)))
+        return abs(float(found_in("OpenSTA", r"(-?[\d.]+) +-?[\d.]+ +[v^]? ?(?:input|output) external delay", text)[1]))
 
     def test_every_port_leaves_seven_tenths_of_the_period(self):
         for name in INPUTS:
@@ -94,7 +95,7 @@ class Constraints(unittest.TestCase):
         self.assertRegex(section, r"(?m)^ +17\.0000 .* r_busy_o/Q \(DFF_X1\)$")
         for mode, uncertainty in (("max", -0.15), ("min", 0.05)):
             text = self.paths(mode, output)["r_rst", "r_busy_o"]
-            self.assertAlmostEqual(float(re.search(r"(-?[\d.]+) +-?[\d.]+ +clock uncertainty", text).group(1)), uncertainty, places=4)
+            self.assertAlmostEqual(float(found_in("OpenSTA", r"(-?[\d.]+) +-?[\d.]+ +clock uncertainty", text)[1]), uncertainty, places=4)
 
     def test_the_reset_leaves_four_fifths(self):
         self.assertAlmostEqual(self.external("rst_ni", "r_rst"), 0.6, places=4)
@@ -107,7 +108,7 @@ class Constraints(unittest.TestCase):
     def test_uncertainty_is_of_setup_and_of_hold(self):
         for mode, uncertainty in (("max", -0.1), ("min", 0.05)):
             text = self.paths(mode)["r_rst", "r_busy_o"]
-            self.assertAlmostEqual(float(re.search(r"(-?[\d.]+) +-?[\d.]+ +clock uncertainty", text).group(1)), uncertainty, places=4)
+            self.assertAlmostEqual(float(found_in("OpenSTA", r"(-?[\d.]+) +-?[\d.]+ +clock uncertainty", text)[1]), uncertainty, places=4)
 
     def test_an_edge_may_take_fifteen_hundredths_of_the_period(self):
         rows = re.findall(r"^(\S+) +(\S+) +(\S+) +\S+ \(VIOLATED\)$", self.output.split("EDGES")[1], re.MULTILINE)

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every fault that must stop the flow stops it, with its message."""
 
-import re
 import tempfile
 import unittest
 from pathlib import Path
 
 from dtof_synth import run, sram_kit, standard_cells, tools
-from dtof_synth.errors import FlowError
+from dtof_synth.errors import FlowError, found_in
 from dtof_synth.sram_model import Size
 
 SYNTH = Path(__file__).resolve().parents[1]
@@ -103,7 +102,7 @@ class FlowChecks(unittest.TestCase):
         # dtof_synth/power.py halves the internal power for this reason.
         output = self.sta("module t(clk_i, a, q); input clk_i, a; output q; wire n;"
                           " DFF_X1 r(.D(a), .CK(clk_i), .Q(n)); DFF_X1 s(.D(n), .CK(clk_i), .Q(q)); endmodule")
-        watts = float(re.search(r"^DTOF_POWER CLOCK shared (\S+)", output, re.MULTILINE).group(1))
+        watts = float(found_in("OpenSTA", r"^DTOF_POWER CLOCK shared (\S+)", output)[1])
         per_cycle = 2 * standard_cells.clock_energy_fj(1.1) * 1e-15 / 3e-9
         self.assertAlmostEqual(watts / (2 * 2 * per_cycle), 1, delta=0.01)
 
@@ -112,7 +111,7 @@ class FlowChecks(unittest.TestCase):
         output = self.sta(column + "module t(clk_i, a, q); input clk_i, a; output q; wire n, m;"
                           " DFF_X1 r(.D(a), .CK(clk_i), .Q(n)); c x_u_column(.a(n), .k(clk_i), .q(m));"
                           " c y_u_column(.a(m), .k(clk_i), .q(q)); endmodule")
-        column_w, shared_w = (float(re.search(rf"^DTOF_POWER CLOCK {group} (\S+)", output, re.MULTILINE).group(1))
+        column_w, shared_w = (float(found_in("OpenSTA", rf"^DTOF_POWER CLOCK {group} (\S+)", output)[1])
                               for group in ("column", "shared"))
         self.assertGreater(column_w, 0)
         self.assertAlmostEqual(column_w / shared_w, 1, delta=0.01)

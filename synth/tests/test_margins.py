@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 
 from dtof_synth import configuration, library, netlist, report, run, standard_cells, timing, tools
+from dtof_synth.errors import found_in
 from dtof_synth.netlist import Counts
 from dtof_synth.power import ClockTree
 from dtof_synth.run import Margin, Result
@@ -113,8 +114,7 @@ class Margins(unittest.TestCase):
                     "wire_load": library.read(liberty).wire_load, "constraints": folder / "dtof.sdc", "margins": margins,
                     "target_period": f"{PERIOD_NS}", "steps": ["margins"], "slew": "0.028", "load": "10"})
                 output = tools.run_sta(ROOT / "synth/sta/timing.tcl", folder / "settings.tcl", folder / "log", "chain")
-                arrival = float(re.search(r"^ +([0-9.]+) +data arrival time", output.split("DTOF_MARGIN_PATH_MAX")[1],
-                                          re.MULTILINE).group(1))
+                arrival = float(found_in("OpenSTA", r"^ +([0-9.]+) +data arrival time", output.split("DTOF_MARGIN_PATH_MAX")[1])[1])
                 return *slacks(output), arrival
 
             setup, hold, arrival = timed(folder / "none.sdc")

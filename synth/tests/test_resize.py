@@ -9,7 +9,7 @@ from dataclasses import astuple
 from pathlib import Path
 
 from dtof_synth import library, netlist, standard_cells, timing, tools, verilog
-from dtof_synth.errors import FlowError
+from dtof_synth.errors import FlowError, found_in
 
 from .small_netlists import cell, module
 
@@ -58,7 +58,7 @@ class Resize(unittest.TestCase):
                                            self.folder / "log", "t"), {})
 
     def slack(self, circuit: dict, period: float) -> float:
-        return float(re.search(r"^DTOF_MARGIN_SLACK (\S+)", self.sta(circuit, period, "margins").output, re.MULTILINE).group(1))
+        return float(found_in("OpenSTA", r"^DTOF_MARGIN_SLACK (\S+)", self.sta(circuit, period, "margins").output)[1])
 
     def test_the_gate_that_makes_a_path_late_grows_in_every_block(self):
         circuit = design()

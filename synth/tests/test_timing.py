@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is read out of OpenSTA's reports."""
 
-import re
 import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
 from dtof_synth import standard_cells, timing, tools
-from dtof_synth.errors import FlowError
+from dtof_synth.errors import FlowError, found_in
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -152,7 +151,7 @@ Endpoint: b (rising edge-triggered flip-flop clocked by clk)
                     "wire_load": standard_cells.WIRE_LOAD, "constraints": folder / "dtof.sdc", "target_period": "3.0",
                     "steps": ["nominal"]})
                 output = tools.run_sta(ROOT / "synth/sta/timing.tcl", folder / "settings.tcl", folder / "log", "chain")
-                return float(re.search(r"^DTOF_SLACK (\S+)", output, re.MULTILINE).group(1))
+                return float(found_in("OpenSTA", r"^DTOF_SLACK (\S+)", output)[1])
 
             short, middle, long = slack(2.0), slack(5.0), slack(8.0)
         self.assertGreater(short - middle, 0.05)

@@ -6,6 +6,7 @@ import unittest
 from pathlib import Path
 
 from dtof_synth import sram_model, wide_words
+from dtof_synth.errors import found_in
 
 MACROS = Path(__file__).resolve().parents[3] / "shared" / "pdk" / "fakeram45"
 
@@ -43,7 +44,7 @@ class WideWords(unittest.TestCase):
         """The macros that are here have to lie on either side of those that are written down."""
         def energy(name: str) -> float:
             text = (MACROS / f"fakeram45_{name}.lib").read_text(encoding="ascii")
-            return float(re.search(r"pin\(clk\).*?values \(\"([\d.]+)", text, re.DOTALL).group(1))
+            return float(found_in("the generator of macros", r"pin\(clk\)[\s\S]*?values \(\"([\d.]+)", text)[1])
 
         for words in (64, 128):
             self.assertLess(energy(f"{words}x32"), wide_words.MACROS[words][64])

@@ -30,5 +30,5 @@ proc dtof_read_rtl {{technology ""}} {
         lappend files $file
     }
     read_verilog -sv $files
-    set_property include_dirs [list [file join $dtof_hdl package]] [current_fileset]
+    set_property include_dirs [list [file join $dtof_hdl common]] [current_fileset]
 }
