@@ -81,8 +81,9 @@ publish:
 
 test: configure
 	@scripts/install_packages.sh browser python clang
+	@scripts/lint.sh --quick
 	@ninja -C $(BUILD)
-	@scripts/lint.sh
+	@scripts/lint.sh --rtl
 	@scripts/run_tests.sh $(BUILD)
 
 # What takes seconds: format, generated files, documents, stale figures.

@@ -3,6 +3,7 @@
 file that moves makes a report stale."""
 
 import ast
+import functools
 import io
 import re
 import tokenize
@@ -51,8 +52,9 @@ def python(text: str) -> str:
     return "\n".join(lines)
 
 
+@functools.cache
 def stripped(path: str, content: bytes) -> bytes:
-    """The content of a file from which its digest is computed; `path` gives the language."""
+    """The content of a file from which its digest is computed; `path` gives the language. Kept, because pages ask many times."""
     suffix = PurePosixPath(path).suffix
     work = c_like if suffix in C_LIKE else python if suffix == ".py" else hash_comments if suffix in HASH else None
     if work is None:

@@ -5,7 +5,6 @@ import gzip
 import json
 import os
 import re
-import shutil
 import tempfile
 import unittest
 from pathlib import Path
@@ -19,6 +18,7 @@ from page import figures, links, render, sections
 from page.commands import commands
 from page.site import Site
 from tests.browser import Browser, missing
+from tests.moved_page import moved_page
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCREENSHOTS = ROOT / "build" / "report_test"
@@ -253,10 +253,7 @@ class InTheBrowser(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
         cls.folder = tempfile.TemporaryDirectory()
-        made = Path(cls.folder.name) / "made"
-        cls.wrong = Site(ROOT, made).write()
-        cls.out = Path(cls.folder.name) / "moved elsewhere"
-        shutil.move(made, cls.out)
+        cls.out, cls.wrong = moved_page(Path(cls.folder.name))
         cls.browser = Browser()
 
     @classmethod

@@ -3,7 +3,6 @@
 
 import json
 import os
-import shutil
 import tempfile
 import time
 import unittest
@@ -15,8 +14,8 @@ from figures.reports import load
 from figures.source_tree import SourceTree
 from page import library, plots
 from page.library import Library
-from page.site import Site
 from tests.browser import Browser, missing
+from tests.moved_page import NO_LIBRARY, moved_page
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCREENSHOTS = ROOT / "build" / "report_test"
@@ -148,16 +147,13 @@ class Shown(unittest.TestCase):
     def setUpClass(cls) -> None:
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
-        made = Path(cls.folder.name) / "made"
-        cls.wrong = Site(ROOT, made, cls.get_library()).write()
-        cls.out = Path(cls.folder.name) / "moved elsewhere"
-        shutil.move(made, cls.out)
+        cls.out, cls.wrong = moved_page(Path(cls.folder.name), cls.get_library())
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.__exit__)
 
     @classmethod
     def get_library(cls) -> Library:
-        return Library(None, None, "npm is not installed")
+        return NO_LIBRARY
 
     def show(self, width: int, height: int) -> None:
         self.browser.complaints.clear()

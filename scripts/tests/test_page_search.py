@@ -2,7 +2,6 @@
 """The start page, the bar with the navigation, and the search: their parts, and in a browser, from a disk."""
 
 import json
-import shutil
 import tempfile
 import time
 import unittest
@@ -12,6 +11,7 @@ from page import layout, start
 from page.search import FILE, Index
 from page.site import Site
 from tests.browser import Browser, missing
+from tests.moved_page import moved_page
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCREENSHOTS = ROOT / "build" / "report_test"
@@ -85,10 +85,7 @@ class InTheBrowser(unittest.TestCase):
     def setUpClass(cls) -> None:
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
-        made = Path(cls.folder.name) / "made"
-        Site(ROOT, made).write()
-        cls.out = Path(cls.folder.name) / "moved elsewhere"
-        shutil.move(made, cls.out)
+        cls.out, _ = moved_page(Path(cls.folder.name))
         cls.browser = Browser()
         cls.addClassCleanup(cls.browser.__exit__)
 
