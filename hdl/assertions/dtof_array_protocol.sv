@@ -3,7 +3,8 @@
 // Synthesis does not read this folder.
 //
 // Assertions: a start in an idle array makes it busy in the next clock; it stays busy until done; done is high for one clock within busy;
-// an acquisition that has begun has a line in each of its LINES clocks; the array is ready during all of them.
+// an acquisition that has begun has a line in each of its LINES clocks; the array is ready during all of them; the memories' side band does
+// not change during a frame.
 // Source: docs/user/integration.md, ports of an array.
 // Covers: a frame, two frames in a row, a start while busy, acquisitions in a row, a pause between acquisitions.
 // Latency: none. Cost: none in silicon.
@@ -12,10 +13,12 @@
 `default_nettype none
 
 module dtof_array_protocol #(
-    parameter int LINES = 4  // lines of an acquisition
+    parameter int LINES = 4,     // lines of an acquisition
+    parameter int CFG_WIDTH = 1  // bits of the memories' side band
 ) (
     input logic clk_i,
     input logic rst_ni,
+    input logic [CFG_WIDTH-1:0] sram_cfg_i,
     input logic start_i,
     input logic busy_i,
     input logic done_i,
@@ -58,6 +61,10 @@ module dtof_array_protocol #(
   a_ready_stays :
   assert property (@(posedge clk_i) disable iff (!rst_ni) line_q != 0 |-> tdc_ready_i)
   else $error("%m: the array was not ready inside an acquisition");
+
+  a_side_band_stays :
+  assert property (@(posedge clk_i) disable iff (!rst_ni) busy_i |-> $stable(sram_cfg_i))
+  else $error("%m: sram_cfg_i changed during a frame");
 
   c_frame : cover property (@(posedge clk_i) disable iff (!rst_ni) done_i);
   c_start_while_busy : cover property (@(posedge clk_i) disable iff (!rst_ni) start_i && busy_i);

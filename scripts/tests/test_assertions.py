@@ -42,8 +42,12 @@ class Assertions(unittest.TestCase):
         subsystem = planted((ROOT / SUBSYSTEM).read_text(encoding="utf-8"), r"(\.tdc_valid_i\s*)\(([^)]*)\)", r"\1(\2 && !fault_gap)")
         # A signal of its own: Verilator 5.032 takes no $time in an expression at a port.
         subsystem = planted(subsystem, r"\n( *logic [^;]*\barray_valid\b[^;]*;)", r"""\n\1
+  logic fault_side_band = 0;
+  always_ff @(posedge clk_i) fault_side_band <= $test$plusargs("fault_side_band") && $time > 5000;
   logic fault_gap;
   always_ff @(posedge clk_i) fault_gap <= $test$plusargs("fault_gap") && $time > 5000 && ($time / 3) % 101 == 0;""")
+        subsystem = planted(subsystem, r"(\.sram_cfg_i\s*)\(sram_cfg_i\)(,\s*\.sram_cfg_o\s*\(array_cfg\))",
+                            r"\1(sram_cfg_i ^ {dtof_pkg::SRAM_CFG_WIDTH{fault_side_band}})\2")
         (cls.folder / "subsystem.sv").write_text(subsystem, encoding="utf-8")
         files = [str(cls.folder / "subsystem.sv") if line.endswith("/dtof_subsystem.sv") else line
                  for line in (HDL / "dtof.f").read_text(encoding="utf-8").splitlines() if line.endswith(".sv") and not line.startswith("//")]
@@ -79,11 +83,55 @@ class Assertions(unittest.TestCase):
                             ("fault_setup", "the master's setup has no access behind it"),
                             ("fault_address", "the master changed the address, the direction or the strobes within a transfer"),
                             ("fault_no_setup", "the master's access has no setup in front of it"),
-                            ("fault_gap", "the source left a gap inside an acquisition")):
+                            ("fault_gap", "the source left a gap inside an acquisition"),
+                            ("fault_side_band", "sram_cfg_i changed during a frame")):
             with self.subTest(fault=fault):
                 said, _ = self.simulate(f"+{fault}")
                 self.assertIn(says, said)
                 self.assertNotIn("PASS", said)
+
+
+RESET_BENCH = """
+`timescale 1ns/1ps
+module reset_bench;
+  logic clk_tdc = 0, clk = 0, rst_tdc_n = 0, rst_n = 0;
+  always #1 clk_tdc = !clk_tdc;
+  always #5 clk = !clk;
+  dtof_async_line_fifo #(.WIDTH(4), .DEPTH(2)) u_fifo (
+      .clk_tdc_i(clk_tdc), .rst_tdc_ni(rst_tdc_n), .s_tvalid_i(1'b0), .s_tready_o(), .s_tdata_i('0), .s_tlast_i(1'b0),
+      .clk_i(clk), .rst_ni(rst_n), .m_tvalid_o(), .m_tready_i(1'b1), .m_tdata_o(), .m_tlast_o());
+  initial begin
+    #42 rst_tdc_n = 1;
+    rst_n = 1;
+    #40 rst_tdc_n = $test$plusargs("fault_tdc_reset") ? 0 : 1;  // three clocks of the other side
+    #30 rst_tdc_n = 1;
+    #40 rst_n = $test$plusargs("fault_readout_reset") ? 0 : 1;
+    #6 rst_n = 1;
+    #40 {rst_n, rst_tdc_n} = 0;
+    #40 {rst_n, rst_tdc_n} = 3;  // four clocks of the slower side
+    #40 $display("PASS");
+    $finish;
+  end
+endmodule
+"""
+
+
+class ResetLength(unittest.TestCase):
+    def test_a_reset_that_is_too_short_is_reported_with_its_side(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "bench.sv").write_text(RESET_BENCH, encoding="utf-8")
+            built = subprocess.run(["verilator", "--binary", "--assert", "-Wno-fatal", "-CFLAGS", "-O0", "--timescale", "1ns/1ps", "--Mdir", folder / "build",
+                                    "-f", "dtof_lint.f", "-f", "dtof.f", "-f", "dtof_assertions.f", folder / "bench.sv", "--top-module", "reset_bench"],
+                                   cwd=HDL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+            self.assertEqual(built.returncode, 0, built.stdout[-3000:])
+            for fault, says in (("", ""), ("fault_tdc_reset", "the reset of the TDC side lasted fewer than 4 clocks of the other side"),
+                                ("fault_readout_reset", "the reset of the read-out side lasted fewer than 4 clocks of the other side")):
+                with self.subTest(fault=fault):
+                    said = subprocess.run([folder / "build" / "Vreset_bench", f"+{fault}"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                          text=True, check=False).stdout
+                    self.assertIn(says, said)
+                    self.assertEqual("PASS" in said, not fault, said)
 
 
 if __name__ == "__main__":

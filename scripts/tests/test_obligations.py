@@ -23,7 +23,7 @@ def problems(text: str, assertions: set[str], flags: set[str]) -> list[str]:
         named = set(re.findall(r"`(a_\w+)`", notices)) - assertions
         named |= {flag for flag in re.findall(r"`ERROR\.(\w+)`", notices) if flag not in flags}
         found += [f"{number}: '{name}' does not exist" for name in sorted(named)]
-        if "nothing" not in notices.lower() and "`" not in notices and "tool" not in notices:
+        if "`" not in notices and "tool" not in notices:
             found.append(f"{number}: nothing is named that notices it")
     return found
 
@@ -51,9 +51,10 @@ class Obligations(unittest.TestCase):
         self.assertEqual(problems(text, assertions(), flags()), [])
 
     def test_a_name_that_does_not_exist_is_found(self) -> None:
-        text = "## What an integrator owes\n| 1 | x | `a_gone`; `ERROR.GONE` |\n| 2 | x | a look |\n"
+        text = "## What an integrator owes\n| 1 | x | `a_gone`; `ERROR.GONE` |\n| 2 | x | a look |\n| 3 | x | nothing: it is lost |\n"
         self.assertEqual(problems(text, {"a_there"}, {"THERE"}),
-                         ["1: 'GONE' does not exist", "1: 'a_gone' does not exist", "2: nothing is named that notices it"])
+                         ["1: 'GONE' does not exist", "1: 'a_gone' does not exist", "2: nothing is named that notices it",
+                          "3: nothing is named that notices it"])
 
 
 BENCH = """
@@ -108,7 +109,7 @@ class Breaches(unittest.TestCase):
 
     def test_each_named_assertion_fails(self) -> None:
         named = {name for _, notices in rows(PAGE.read_text(encoding="utf-8")) for name in re.findall(r"`(a_\w+)`", notices)}
-        named -= protocol_assertions()
+        named -= protocol_assertions() | {"a_no_array_error"}  # test_power_simulation breaks the last one
         self.assertEqual(named, set(re.findall(r'plusargs\("(a_\w+)"\)', BENCH)))
         with tempfile.TemporaryDirectory() as folder:
             (Path(folder) / "bench.sv").write_text(BENCH, encoding="utf-8")
