@@ -100,7 +100,8 @@ function takeSensor() {
   showControls();
 }
 
-const sceneSummary = () => given.recording ? `${given.recording.name}, a recording` : given.depth ? `${given.depth.name}, ${given.depth.columns} x ${given.depth.rows} pixels` :
+const sceneSummary = () => given.recording ? `${given.recording.name}, a recording` :
+  given.depth ? `${given.depth.name}, ${given.depth.columns} x ${given.depth.rows} pixels` :
   catalogue.scene.find(([name]) => name === form.scene.value)[1];
 
 /** Texts and fields that follow from other fields. */
