@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The page of `make playground` in headless Chromium beside `dtof frame`: every code and figure equal.
+"""The page of `make playground` in headless Chromium beside `dtof frame` and `dtof replay`: every code and figure equal.
 
 The commands compared with are those that the page shows. Screenshots are left in build/playground/test/.
 """
 
+import base64
 import csv
 import shlex
 import subprocess
@@ -71,6 +72,20 @@ def native(command: str, **changes: str) -> Frame:
             with open(Path(folder) / f"{name}.csv", newline="", encoding="utf-8") as file:
                 frame.pixels[name] = [tuple(map(int, line[2:])) for line in list(csv.reader(file))[1:]]
             frame.figures[name] = row[1:7]
+    return frame
+
+
+def replayed(command: str, recording: Path) -> Frame:
+    """Runs the command that the page shows on a recording; it has no figures."""
+    words = shlex.split(command.replace("\\\n", " "))
+    words[2] = str(recording)
+    frame = Frame()
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([*words, "--out", folder], cwd=ROOT, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        for path in Path(folder).glob("*.csv"):
+            with open(path, newline="", encoding="utf-8") as file:
+                frame.pixels[path.stem] = [tuple(map(int, line[2:])) for line in list(csv.reader(file))[1:]]
+    frame.figures = {name: [] for name in frame.pixels}
     return frame
 
 
@@ -179,13 +194,71 @@ class Playground(unittest.TestCase):
             self.set({"seed": 3}, ["ezpointer", "sifh", "poolpointer"])
             for file in (sensor, depth):
                 self.assertEqual(self.wait(), "done", self.status())
-                self.browser.evaluate(
-                    f"form.size.selectedIndex = 2; document.body.dataset.state = 'running'; (data => {{ data.items.add(new File("
-                    f"[Uint8Array.from({list(file.read_bytes())})], '{file.name}')); document.body.dispatchEvent(new DragEvent('drop', "
-                    "{dataTransfer: data, bubbles: true, cancelable: true})); })(new DataTransfer())")
+                self.browser.evaluate("form.size.selectedIndex = 2")
+                self.drop(file)
             self.assertEqual(self.wait(), "done", self.status())
             self.assertIn("--depth map.npy --sensor mine.toml", self.command())
             self.assertEqual(self.shown().differences(native(self.command(), sensor=str(sensor), depth=str(depth))), [])
+
+    def drop(self, file: Path) -> None:
+        content = base64.b64encode(file.read_bytes()).decode()
+        self.browser.evaluate(
+            f"document.body.dataset.state = 'running'; (data => {{ data.items.add(new File([Uint8Array.from(atob('{content}'),"
+            f" letter => letter.charCodeAt(0))], '{file.name}')); document.body.dispatchEvent(new DragEvent('drop', "
+            "{dataTransfer: data, bubbles: true, cancelable: true})); })(new DataTransfer())")
+
+    def replay(self) -> Frame:
+        """The frame of a recording on the page."""
+        self.assertEqual(self.wait(), "done", self.status())
+        frame = Frame()
+        for name, values in self.browser.evaluate("frames.map(f => [f.readout, [...f.results]])"):
+            frame.pixels[name] = list(zip(values[0::4], values[1::4], values[2::4]))
+            frame.figures[name] = []
+        return frame
+
+    def test_a_recording(self) -> None:
+        """A TDC stream and histograms that are dropped on the page; the pixel's states end with its result."""
+        self.browser.open(PAGE)
+        self.wait()
+        with tempfile.TemporaryDirectory() as folder:
+            stream, cube = Path(folder) / "mine.csv", Path(folder) / "cube.npy"
+            subprocess.run(["build/cpp/bin/dtof", "frame", "--scene", "plane", "--array-columns", "12", "--array-rows", "8", "--acquisitions", "600",
+                            "--readout", "ezpointer", "--record", str(stream), "--out", folder + "/frame"], cwd=ROOT, check=True,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            numpy.save(cube, numpy.random.default_rng(1).poisson(3, (6, 5, 64)).astype(numpy.uint16))
+            self.drop(stream)
+            shown = self.replay()
+            self.assertEqual(len(shown.pixels), len(tomllib.loads((ROOT / "readouts.toml").read_text(encoding="utf-8"))["readout"]))
+            self.assertEqual(shown.differences(replayed(self.command(), stream)), [])
+            for width, height in ((1400, 1000), (390, 800)):
+                self.browser.window(width, height)
+                self.trace("poolpointer", 4, 3)
+                self.browser.screenshot(SCREENSHOTS / f"recording_{width}.png", whole=False)
+                self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+            for name in ("ezpointer", "poolpointer", "sifh"):
+                code = shown.pixels[name][3 * 12 + 4][0]
+                self.assertEqual(int(self.trace(name, 4, 3)), code, name)
+            # The comparison sees that one pixel's detections are later.
+            lines = stream.read_text(encoding="utf-8").splitlines()
+            later = [",".join([*line.split(",")[:3], "1000"]) if line.split(",")[1:3] == ["4", "3"] else line for line in lines]
+            stream.write_text("\n".join(later) + "\n", encoding="utf-8")
+            self.assertNotEqual(shown.differences(replayed(self.command(), stream)), [])
+            self.browser.evaluate("form['bin-width'].value = '600'")
+            self.drop(cube)
+            self.assertEqual(self.replay().differences(replayed(self.command(), cube)), [])
+            stream.write_text("acquisition,column,row,timestamp\n0,0,0,1024\n", encoding="utf-8")
+            self.drop(stream)
+            self.assertEqual((self.wait(), self.status()), ("failed", "mine.csv:2: timestamp 1024 is outside 0..1023 (NP = 10)"))
+
+    def trace(self, readout: str, column: int, row: int) -> float:
+        """The last position of a pixel's trace, once all its steps are there."""
+        self.browser.evaluate(f"document.getElementById('trace-readout').value = '{readout}'; watched.states = []; watchPixel({column}, {row})")
+        end = time.monotonic() + SECONDS
+        while time.monotonic() < end:
+            if self.browser.evaluate("watched.pixel && !watched.waiting && watched.states.length === steps()"):
+                return float(self.browser.evaluate("watched.states.at(-1).position"))
+            time.sleep(0.2)
+        self.fail(f"no trace of {readout} in {SECONDS} s")
 
     def test_what_cannot_be_is_refused(self) -> None:
         self.browser.open(PAGE)

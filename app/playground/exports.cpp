@@ -7,6 +7,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ dtof::PlaygroundFiles files;
 dtof::PlaygroundFrame frame;
 std::string sensor_line;
 std::vector<dtof::Detection> detections;
+std::unique_ptr<dtof::PixelTrace> trace;
+std::vector<std::uint16_t> state;
+std::vector<dtof::PoolCandidate> candidates;
 std::string sentence;
 std::string figures;
 
@@ -30,6 +34,9 @@ bool attempt(const std::function<void()>& work) {
   try {
     work();
     return true;
+  } catch (const std::bad_alloc&) {
+    sentence = "this needs more memory than a page has";
+    return false;
   } catch (const std::exception& error) {
     sentence = error.what();
     return false;
@@ -63,9 +70,18 @@ float* playground_take_map(int columns, int rows) {
       static_cast<std::size_t>(std::max(columns, 0)) * static_cast<std::size_t>(std::max(rows, 0)), 0.0F);
   return files.map_m.data();
 }
-/// Begins a scene.
+/// The recording that stands for scenes from now on: its place, for the contents. Of 0 bytes: none.
+char* playground_take_recording(const char* name, int bytes, double bin_width_ps) {
+  files.recording_name = name;
+  files.recording.assign(static_cast<std::size_t>(std::max(bytes, 0)), '\0');
+  files.bin_width_ps = bin_width_ps;
+  return files.recording.data();
+}
+/// Begins a scene or a recording.
 bool playground_begin(const char* request) {
   return attempt([&] {
+    trace.reset();  // it belongs to the session
+    session.reset();
     session = std::make_unique<dtof::PlaygroundSession>(dtof::parse_playground_request(request), files);
   });
 }
@@ -74,7 +90,7 @@ const char* playground_error() { return sentence.c_str(); }
 int playground_columns() { return session->columns(); }
 int playground_rows() { return session->rows(); }
 const float* playground_truth() { return session->truth_m().data(); }
-const float* playground_reflectivity() { return session->reflectivity().data(); }
+const float* playground_brightness() { return session->brightness().data(); }
 
 bool playground_calibrate() {
   return attempt([] { session->calibrate(); });
@@ -103,7 +119,10 @@ const std::uint16_t* playground_results() {
 /// What a pixel's TDC delivered over the frame: reads it, says how many detections there are, and where. A
 /// detection is an acquisition of 32 bits and a timestamp of 16, in 8 bytes.
 bool playground_pixel(int column, int row) {
-  return attempt([&] { detections = session->pixel(column, row); });
+  return attempt([&] {
+    detections = session->pixel(column, row);
+    trace = session->trace(column, row);
+  });
 }
 int playground_detections() { return static_cast<int>(detections.size()); }
 const dtof::Detection* playground_detection() {
@@ -112,6 +131,32 @@ const dtof::Detection* playground_detection() {
 }
 int playground_acquisitions() { return static_cast<int>(session->acquisitions()); }
 int playground_codes() { return session->codes(); }
+/// What a read-out, by its place in the request, makes of that pixel if the light ends before an acquisition
+/// (PixelTrace). Its four numbers are those of playground_results.
+bool playground_state(int readout, int until) {
+  return attempt([&] {
+    const dtof::PixelResult result =
+        trace->result(session->readout(static_cast<std::size_t>(readout)), static_cast<std::uint32_t>(until));
+    state = {result.code, result.fraction, result.confidence, result.second};
+  });
+}
+const std::uint16_t* playground_state_numbers() { return state.data(); }
+/// Candidates of the pixel's group at that time: a cell and a score each, in 8 bytes.
+bool playground_candidates(int readout, int until) {
+  return attempt([&] {
+    candidates = trace->candidates(session->readout(static_cast<std::size_t>(readout)),
+                                   static_cast<std::uint32_t>(until));
+  });
+}
+int playground_candidate_count() { return static_cast<int>(candidates.size()); }
+const dtof::PoolCandidate* playground_candidate() {
+  static_assert(sizeof(dtof::PoolCandidate) == 8);
+  return candidates.data();
+}
+/// Bits of a read-out's fraction.
+int playground_fraction_bits(int readout) {
+  return session->readout(static_cast<std::size_t>(readout)).fraction_bits;
+}
 /// The figures of summary.csv, one a line.
 const char* playground_figures() { return figures.c_str(); }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A page has no files. What sensor_file.cpp calls of the library io to read a sensor file, and the files that
-// one names, says so here; the presets are compiled in and name none.
+// A page has no files. What sensor files, recordings and arrays call of the library io to open one says so
+// here; the page hands over contents, and the presets are compiled in.
 #include "dtof/core/error.hpp"
+#include "dtof/io/atomic_file.hpp"
 #include "dtof/io/csv_table.hpp"
 #include "dtof/io/input_file.hpp"
-#include "dtof/io/npy.hpp"
 
 namespace dtof {
 namespace {
@@ -17,7 +17,16 @@ namespace {
 
 std::string read_file(const std::filesystem::path& path, std::size_t /*longest*/) { refuse(path); }
 
-NpyArray read_npy(const std::filesystem::path& path) { refuse(path); }
+std::string read_file_or_gzip(const std::filesystem::path& path, std::size_t /*longest*/) { refuse(path); }
+
+void fail_in_file(const std::filesystem::path& path, std::string_view reason) {
+  throw InputError(path.string() + ": " + std::string(reason));
+}
+
+AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)) { refuse(target_); }
+AtomicFile::~AtomicFile() = default;
+void AtomicFile::append(std::string_view /*bytes*/) { refuse(target_); }
+void AtomicFile::commit() { refuse(target_); }
 
 CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path)) { refuse(path_); }
 std::vector<double> CsvTable::column(std::string_view /*name*/) const { refuse(path_); }

@@ -41,6 +41,7 @@ using ::ranges::min_element;
 using ::ranges::none_of;
 using ::ranges::nth_element;
 using ::ranges::partition_point;
+using ::ranges::reverse;
 using ::ranges::sort;
 using ::ranges::stable_sort;
 using ::ranges::transform;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,11 +11,13 @@
 #include "dtof/core/parameters.hpp"
 #include "dtof/core/result.hpp"
 #include "dtof/pipeline/frame_engine.hpp"
-#include "dtof/pipeline/frame_pipeline.hpp"
+#include "playground/photons.hpp"
+#include "playground/pixel_trace.hpp"
 
 namespace dtof {
 
-/// Settings of the page: a frame as from `dtof frame` with the same options.
+/// Settings of the page: a frame as from `dtof frame` or, with a recording, `dtof replay` with the same
+/// options.
 struct PlaygroundRequest {
   std::string sensor = "thesis";
   std::string scene = "room";
@@ -38,6 +41,10 @@ struct PlaygroundFiles {
   int map_columns = 0;           ///< columns of a depth map; 0: use the request's scene
   int map_rows = 0;
   std::vector<float> map_m = {};  ///< [row][column], row 0 on top; 0: unknown
+  std::string recording_name = {};
+  /// Contents of a recorded TDC stream (CSV) or of histograms (NPY); empty: use the scene or depth map.
+  std::string recording = {};
+  double bin_width_ps = 0.0;  ///< of the histograms
 };
 
 /// Results of one read-out for a frame, row-major.
@@ -48,8 +55,8 @@ struct PlaygroundFrame {
   std::vector<std::string> figures;  ///< as in `summary.csv` (figure_names)
 };
 
-/// A scene that several read-outs process together, column by column, so that the page can show progress.
-/// Photons are drawn once.
+/// A scene or recording that several read-outs process together, column by column, so that the page can show
+/// progress. Photons are drawn once.
 class PlaygroundSession {
  public:
   /// Throws InputError for an illegal request or file.
@@ -60,12 +67,13 @@ class PlaygroundSession {
   PlaygroundSession& operator=(PlaygroundSession&&) = delete;
   ~PlaygroundSession() = default;
 
-  [[nodiscard]] int columns() const { return pipeline_.scene().columns(); }
-  [[nodiscard]] int rows() const { return pipeline_.scene().rows(); }
-  [[nodiscard]] const std::vector<float>& truth_m() const { return pipeline_.truth().metres; }
-  [[nodiscard]] const std::vector<float>& reflectivity() const { return reflectivity_; }
+  [[nodiscard]] int columns() const { return photons_->source().columns(); }
+  [[nodiscard]] int rows() const { return photons_->source().rows(); }
+  [[nodiscard]] const std::vector<float>& truth_m() const { return photons_->truth_m(); }
+  /// Reflectivity of each pixel's target, or of a recording the number of a pixel's detections.
+  [[nodiscard]] const std::vector<float>& brightness() const { return brightness_; }
 
-  /// Fits the look-up tables.
+  /// Fits the look-up tables; a recording has none.
   void calibrate();
   /// Reads out a column; call it for all columns, from left to right. Columns that depend on each other are
   /// processed together with the last of them.
@@ -74,16 +82,21 @@ class PlaygroundSession {
   [[nodiscard]] PlaygroundFrame frame(std::size_t readout) const;
   /// Detections of a pixel over the frame.
   [[nodiscard]] std::vector<Detection> pixel(int column, int row) const;
-  [[nodiscard]] std::uint32_t acquisitions() const { return pipeline_.scene().acquisitions(); }
+  [[nodiscard]] std::uint32_t acquisitions() const { return photons_->source().acquisitions(); }
   /// Number of codes of a timestamp.
-  [[nodiscard]] int codes() const;
+  [[nodiscard]] int codes() const { return 1 << photons_->sensor().np; }
+  /// Trace of a pixel. The session must outlive it.
+  [[nodiscard]] std::unique_ptr<PixelTrace> trace(int column, int row) const;
+  /// Parameters of the read-out with this index in the request.
+  [[nodiscard]] const ReadoutParameters& readout(std::size_t index) const { return readouts_.at(index); }
 
  private:
+  void require_pixel(int column, int row) const;
+
   ModelEngine engine_;
-  FramePipeline pipeline_;
-  std::vector<float> reflectivity_;
+  std::unique_ptr<PlaygroundPhotons> photons_;
+  std::vector<float> brightness_;
   std::vector<ReadoutParameters> readouts_;
-  std::vector<TabledReadout> tabled_;
   std::vector<int> read_;                          // of each read-out, the first column not yet read
   int forgotten_ = 0;                              // the first column whose photons are kept
   std::vector<std::vector<PixelResult>> results_;  // of each read-out, row-major

@@ -3,6 +3,7 @@
 
 `make playground-test` compares the models' module with `dtof frame`; it needs emscripten, and this test does not."""
 
+import gzip
 import io
 import json
 import tempfile
@@ -20,11 +21,12 @@ from tests.browser import Browser, missing
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCREENSHOTS = ROOT / "build" / "report_test"
 SECONDS = 30
-# Two read-outs of 16 x 8 pixels, columns from 1 m to 2.5 m: the first reads 0.1 m too much, the second 0.1 m too little.
+# Three read-outs of 16 x 8 pixels, columns from 1 m to 2.5 m: the first reads 0.1 m too much, the others 0.1 m too little.
 STAND_IN = """
 const createModels = async () => {
   const heap = new ArrayBuffer(1 << 20), HEAPF32 = new Float32Array(heap), HEAPU16 = new Uint16Array(heap), HEAPU32 = new Uint32Array(heap);
-  let asked = {}, readout = 0, sentence = "", sensor = "", map = null;
+  const HEAPU8 = new Uint8Array(heap), HEAP32 = new Int32Array(heap);
+  let asked = {}, readout = 0, sentence = "", sensor = "", map = null, recording = null;
   const pixels = () => asked.columns * asked.rows;
   const MAP = 5 << 16;
   const truth = (i) => !map ? 1 + 0.1 * (i % asked.columns) :
@@ -35,24 +37,31 @@ const createModels = async () => {
   };
   const off = () => readout === 0 ? 0.1 : -0.1;
   const functions = {
-    catalogue: () => "readout\\tfirst\\tFirst\\treads too far\\nreadout\\tsecond\\tSecond\\treads too near\\nscene\\troom\\ta room\\n" +
-      "scene\\tflat\\ta wall\\nsensor\\tthesis\\t16\\t8\\t0.5\\t100\\t6.75\\n",
+    catalogue: () => "readout\\tfirst\\tFirst\\treads too far\\nreadout\\tpoolpointer\\tPool\\treads as far as the second\\n" +
+      "readout\\tsecond\\tSecond\\treads too near\\nscene\\troom\\ta room\\n" +
+      "scene\\tflat\\ta wall\\nsensor\\tthesis\\t16\\t8\\t0.5\\t100\\t6.75\\t10\\t2\\t45\\n",
     take_sensor: (name, text) => {
       sentence = text.includes("wrong") ? `${name}:1: wrong` : "";
-      sensor = text === "" ? "" : `sensor\\t${name}\\t32\\t8\\t0.25\\t77\\t3.5\\n`;
+      sensor = text === "" ? "" : `sensor\\t${name}\\t32\\t8\\t0.25\\t77\\t3.5\\t9\\t1\\t23.3\\n`;
       return sentence === "" ? 1 : 0;
     },
     sensor: () => sensor,
     take_map: (columns, rows) => { map = columns === 0 ? null : [columns, rows]; return MAP; },
+    take_recording: (name, bytes, width) => { recording = bytes === 0 ? null : { name, bytes, width }; return 8 << 16; },
     begin: (text) => {
       asked = Object.fromEntries(text.split("\\n").map((line) => line.split(" ")));
       sentence = Number(asked.seed) === 13 ? "13 is refused" : "";
+      if (recording) {  // a column for each byte, whose value is the pixel's number of detections
+        Object.assign(asked, { columns: Math.min(recording.bytes, 16), rows: 1 });
+        sentence = HEAPU8[8 << 16] === 33 ? `${recording.name}:1: wrong` : "";
+      }
       return sentence === "" ? 1 : 0;
     },
     error: () => sentence, columns: () => Number(asked.columns), rows: () => Number(asked.rows),
-    truth: () => floats(0, truth), reflectivity: () => floats(1 << 16, () => 0.5), calibrate: () => 1, read_column: () => 1,
+    truth: () => floats(0, (i) => recording ? NaN : truth(i)),
+    brightness: () => floats(1 << 16, (i) => recording ? HEAPU8[(8 << 16) + i] : 0.5), calibrate: () => 1, read_column: () => 1,
     frame: (index) => { readout = index; return 1; },
-    depth: () => floats(2 << 16, (i) => truth(i) + off()), error_map: () => floats(3 << 16, off),
+    depth: () => floats(2 << 16, (i) => truth(i) + off()), error_map: () => floats(3 << 16, () => recording ? NaN : off()),
     results: () => {
       for (let i = 0; i < pixels(); ++i) { HEAPU16.set([i, 0, 3, 0], (4 << 16) / 2 + 4 * i); }
       return 4 << 16;
@@ -72,8 +81,13 @@ const createModels = async () => {
       return 1;
     },
     detections: () => 51, detection: () => seen, acquisitions: () => 100, codes: () => 1024,
+    // The position is four codes an acquisition. Only the pool's group has candidates.
+    state: (index, until) => { readout = index; HEAPU16.set([4 * until, 1, 5, 2 * 300], (9 << 16) / 2); return 1; },
+    state_numbers: () => 9 << 16, fraction_bits: () => 1,
+    candidates: (index, until) => { HEAP32.set([16, until, 64, 1], (10 << 16) / 4); return 1; },
+    candidate_count: () => readout === 1 ? 2 : 0, candidate: () => 10 << 16,
   });
-  return { HEAPF32, HEAPU16, HEAPU32, ccall: (name, result, types, values) => functions[name.replace("playground_", "")](...values) };
+  return { HEAPF32, HEAPU8, HEAPU16, HEAPU32, HEAP32, ccall: (name, result, types, values) => functions[name.replace("playground_", "")](...values) };
 };
 """
 
@@ -144,7 +158,7 @@ class InTheBrowser(unittest.TestCase):
             self.show(width, height)
             self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
             self.assertEqual(self.browser.evaluate("[...document.querySelectorAll('#cards h3')].map(h => h.textContent)"),
-                             ["The scene", "First", "Second"])
+                             ["The scene", "First", "Pool", "Second"])
             self.assertIn("--scene room --sensor thesis --array-columns 16 --array-rows 8", self.browser.evaluate(
                 "document.getElementById('command').textContent"))
 
@@ -200,7 +214,8 @@ class InTheBrowser(unittest.TestCase):
 
     def test_one_readout_is_not_compared(self) -> None:
         self.show()
-        self.browser.evaluate("form.querySelector('[value=second]').checked = false; form.requestSubmit()")
+        self.browser.evaluate("form.querySelectorAll('[value=second], [value=poolpointer]').forEach(box => {"
+                              " box.checked = false; }); form.requestSubmit()")
         self.assertEqual(self.state(), "done")
         self.assertTrue(self.browser.evaluate("document.getElementById('compare').hidden"))
 
@@ -232,7 +247,7 @@ class InTheBrowser(unittest.TestCase):
                                   "(document.getElementById('watch-time'))")
             self.assertEqual(self.histogram("Column 9, row 2: 10 timestamps in the first 20 of 100 acquisitions"), {9: 10})
             self.assertEqual(self.browser.evaluate("document.getElementById('watch-marks').innerText.match(/▮ [^▮]*/g).map(t => t.slice(2).trim())"),
-                             ["First", "Second", "true distance"])
+                             ["First", "Pool", "Second", "true distance"])
             self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
             box = self.browser.evaluate("(r => [r.top, r.bottom])(document.getElementById('watch').getBoundingClientRect())")
             self.assertTrue(0 < box[0] < box[1] <= height, box)  # in sight, wherever the pixel is
@@ -240,6 +255,37 @@ class InTheBrowser(unittest.TestCase):
         self.browser.evaluate("delete document.body.dataset.state; form.requestSubmit()")
         self.assertEqual(self.state(), "done")
         self.assertTrue(self.browser.evaluate("document.getElementById('watch').hidden"))
+
+    def test_the_state_of_the_pixel_grows_over_the_frame(self) -> None:
+        for width, height in ((390, 844), (1440, 900)):
+            self.show(width, height)
+            self.point_at("#cards article:nth-of-type(2) canvas", 6, 2)
+            self.assertEqual(self.states(64)[:2], [[2, 8.5], [3, 12.5]])
+            self.assertEqual(self.states(64)[-1], [100, 400.5])
+            self.assertRegex(self.traced(), r"^After 100 acquisitions: at 2.64 m \(code 400.5\), confidence 5\. Each step")
+            self.browser.evaluate("(l => { l.value = 'poolpointer'; l.dispatchEvent(new Event('input')); })(document.getElementById('trace-readout'))")
+            self.states(24)
+            self.assertIn("rival at 1.98 m; candidates (score): 0.84 m (100), 3.38 m (1).", self.traced())
+            self.browser.screenshot(SCREENSHOTS / f"playground_trace_{width}.png", whole=False)
+            self.browser.evaluate("(s => { s.value = 500; s.dispatchEvent(new Event('input', {bubbles: true})); })"
+                                  "(document.getElementById('watch-time'))")
+            self.assertRegex(self.traced(), r"^After 50 acquisitions: at 1.32 m \(code 200.5\)")
+            self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+            self.browser.evaluate("document.getElementById('watch-time').value = 1000")
+
+    def states(self, count: int) -> list[list[float]]:
+        """Acquisition and position of each step, once there are this many."""
+        end = time.monotonic() + SECONDS
+        while time.monotonic() < end:
+            states: list[list[float]] = self.browser.evaluate("watched.states.map(s => [s.until, s.position])")
+            if len(states) == count:
+                break
+            time.sleep(0.05)
+        self.assertEqual(len(states), count)
+        return states
+
+    def traced(self) -> str:
+        return str(self.browser.evaluate("document.getElementById('trace-says').textContent"))
 
     # ---- Files --------------------------------------------------------------------------------------------
 
@@ -310,6 +356,59 @@ class InTheBrowser(unittest.TestCase):
         self.browser.evaluate("delete document.body.dataset.state; document.getElementById('drop-sensor').click()")
         self.assertEqual(self.state(), "done")
         self.assertIn("--sensor thesis --array-columns 16", self.command())
+
+    def test_a_recording_is_replayed(self) -> None:
+        stream = b"acquisition\n\x07\x02\x03"
+        for name, content in (("a frame.csv", stream), ("frame.csv.gz", gzip.compress(stream))):
+            for width, height in ((390, 844), (1440, 900)):
+                self.show(width, height)
+                self.drop((name, content))
+                self.assertEqual(self.state(), "done", self.status())
+                self.assertEqual(self.browser.evaluate("[...scene.brightness]"), list(stream))
+                quoted = f"'{name}'" if " " in name else name
+                self.assertEqual(self.command(), f"build/cpp/bin/dtof replay {quoted} --t-int 45 --np 10 --slots 2 --readout all")
+                self.assertEqual(self.browser.evaluate("[...document.querySelectorAll('#cards h3')].map(h => h.textContent)"),
+                                 ["The recording", "First", "Pool", "Second"])
+                self.assertEqual(self.browser.evaluate("document.querySelectorAll('#cards canvas').length"), 4)  # no map of errors
+                self.assertTrue(self.browser.evaluate("form.scene.disabled && form.klux.disabled && form.acquisitions.disabled"))
+                self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+                self.browser.screenshot(SCREENSHOTS / f"playground_recording_{width}.png")
+        self.browser.evaluate("delete document.body.dataset.state; document.getElementById('drop-recording').click()")
+        self.assertEqual(self.state(), "done")
+        self.assertIn("--scene room", self.command())
+        self.assertFalse(self.browser.evaluate("form.scene.disabled || form.klux.disabled || form.acquisitions.disabled"))
+
+    def test_histograms_are_a_recording(self) -> None:
+        cube = numpy.arange(24, dtype=numpy.uint16).reshape(2, 3, 4)
+        archives = []
+        for save in (numpy.savez, numpy.savez_compressed):
+            file = io.BytesIO()
+            save(file, histograms=cube, bin_width_ps=numpy.float64(250.5))
+            archives.append(file.getvalue())
+        self.show()
+        for content in archives:
+            self.drop(("cube.npz", content))
+            self.assertEqual(self.state(), "done", self.status())
+            self.assertEqual(self.browser.evaluate("given.recording.contents.size"), len(npy(cube)))
+            self.assertEqual(self.command(), "build/cpp/bin/dtof replay cube.npz --bin-width 250.5 --acquisitions 100 --seed 1 "
+                                             "--t-int 45 --np 10 --slots 2 --readout all")
+        self.drop(("cube.npy", npy(cube)))
+        self.assertEqual((self.state(), self.status()), ("failed", "cube.npy: histograms need the width of their bins: give it in ps"))
+        self.browser.evaluate("delete document.body.dataset.state; form['bin-width'].value = '100';"
+                              "form['bin-width'].dispatchEvent(new Event('change', {bubbles: true}))")
+        self.assertEqual(self.state(), "done", self.status())
+        self.assertIn("dtof replay cube.npy --bin-width 100 --acq", self.command())
+        self.drop(("map.npy", npy(numpy.ones((8, 16), numpy.float32))))  # a map takes the recording's place
+        self.assertEqual(self.state(), "done", self.status())
+        self.assertIn("--depth map.npy", self.command())
+
+    def test_a_recording_that_cannot_be_read_has_its_sentence(self) -> None:
+        for name, content, sentence in (("x.csv", b"!", "x.csv:1: wrong"), ("x.csv", b"", "x.csv: empty"),
+                                        ("x.csv.gz", gzip.compress(b"acquisition")[:-9], "x.csv.gz: damaged gzip data"),
+                                        ("x.npz", b"PK\x03\x04 no archive", "x.npz: a damaged NPZ")):
+            self.show()
+            self.drop((name, content))
+            self.assertEqual((self.state(), self.status()), ("failed", sentence))
 
     def test_a_file_that_is_none_of_these_is_refused_and_changes_nothing(self) -> None:
         good = npy(numpy.ones((8, 16), numpy.float32))

@@ -13,7 +13,7 @@ const splitColumn = () => Math.round(compared.split.value / compared.split.max *
 
 function paintComparison() {
   const [left, right] = comparedFrames();
-  const isError = compared.measure.value === "error";
+  const isError = !scene.recorded && compared.measure.value === "error";
   const [one, two] = [left, right].map((frame) => isError ? frame.error : frame.depth);
   const first = splitColumn();
   paint(compared.canvas, one.map((value, i) => i % scene.columns < first ? value : two[i]), isError ? errorColour : depthColour);
@@ -24,6 +24,7 @@ function paintComparison() {
 /** After a run; what was chosen stays where the run has it. */
 function showComparison() {
   byId("compare").hidden = frames.length < 2;
+  compared.measure.parentElement.hidden = scene.recorded;  // without true distances there is the depth alone
   if (byId("compare").hidden) {
     return;
   }

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are dropped on the page: a sensor file (TOML), or a depth map (PNG of 8 or 16 bits, PFM, NPY) as `dtof frame --depth` reads it.
+// Files that are dropped on the page: a sensor file (TOML), a depth map (PNG of 8 or 16 bits, PFM, NPY) as `dtof frame --depth` reads it, or a
+// recording (CSV of a TDC stream, NPY or NPZ with histograms) as `dtof replay` reads it.
 "use strict";
 
 const LARGEST_EXTENT = 65535;  // rows and columns of a map
 const MILLIMETRE = 1e-3;  // a unit of a PNG of 16 bits
-const given = { sensor: null, depth: null };  // what a run takes instead of a preset and a scene
+const LONGEST_RECORDING = 256e6;  // bytes; the models need three to five times as many
+const given = { sensor: null, depth: null, recording: null };  // what a run takes instead of a preset and a scene
 let lastMap = null;  // the file, which another scale reads again
+let lastRecording = null;  // likewise, for another bin width
 
 const refuse = (reason) => { throw new Error(reason); };
+const startsWith = (bytes, ...values) => values.every((value, i) => bytes[i] === value);
+const isNpy = (bytes) => startsWith(bytes, 0x93, 0x4e, 0x55, 0x4d);
 
 function checkExtent(columns, rows) {
   if (!(columns >= 1 && rows >= 1 && columns <= LARGEST_EXTENT && rows <= LARGEST_EXTENT)) {
@@ -43,16 +48,24 @@ function readPfm(bytes) {
 const NPY_TYPES = { f4: [4, "getFloat32"], f8: [8, "getFloat64"], u1: [1, "getUint8"], u2: [2, "getUint16"], u4: [4, "getUint32"],
   i1: [1, "getInt8"], i2: [2, "getInt16"], i4: [4, "getInt32"] };
 
-function readNpy(bytes) {
+function npyHeader(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset);
   const [length, begin] = bytes[6] === 1 ? [view.getUint16(8, true), 10] : [view.getUint32(8, true), 12];
-  const header = new TextDecoder("latin1").decode(bytes.slice(begin, begin + length));
+  return { view, data: begin + length, header: new TextDecoder("latin1").decode(bytes.slice(begin, begin + length)) };
+}
+
+/** Lengths of an array's axes. */
+const npyShape = ({ header }) => (/'shape':\s*\(([^)]*)\)/.exec(header) ?? refuse("NPY without a shape"))[1]
+  .split(",").filter((text) => text.trim()).map(Number);
+
+function readNpy(bytes) {
+  const { view, data, header } = npyHeader(bytes);
   const [, order, type] = /'descr':\s*'([<>|=]?)(\w+)'/.exec(header) ?? refuse("NPY without a type of numbers");
   const size = NPY_TYPES[type] ?? refuse(`NPY of ${type}: numbers are ${Object.keys(NPY_TYPES).join(", ")}`);
   if (/'fortran_order':\s*True/.test(header)) {
     refuse("NPY in the order of Fortran");
   }
-  let shape = (/'shape':\s*\(([^)]*)\)/.exec(header) ?? refuse("NPY without a shape"))[1].split(",").filter((text) => text.trim()).map(Number);
+  let shape = npyShape({ header });
   while (shape.length > 2 && shape.at(-1) === 1) {
     shape = shape.slice(0, -1);
   }
@@ -64,7 +77,6 @@ function readNpy(bytes) {
   }
   const [rows, columns] = shape;
   checkExtent(columns, rows);
-  const data = begin + length;
   if (bytes.length - data !== rows * columns * size[0]) {
     refuse(`${columns} x ${rows} numbers need ${rows * columns * size[0]} bytes, the file has ${bytes.length - data}`);
   }
@@ -72,8 +84,8 @@ function readNpy(bytes) {
     values: Float64Array.from({ length: rows * columns }, (_, i) => view[size[1]](data + i * size[0], order !== ">")) };
 }
 
-async function inflate(bytes) {
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+async function inflate(bytes, format = "deflate") {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
@@ -126,9 +138,8 @@ async function readPng(bytes) {
 
 /** A depth map in metres; 0 is unknown. `scale`: metres a unit, or NaN for the format's own. */
 async function readMap(bytes, scale) {
-  const begins = (...values) => values.every((value, i) => bytes[i] === value);
-  const map = begins(0x89, 0x50, 0x4e, 0x47) ? await readPng(bytes) : begins(0x50, 0x66) ? readPfm(bytes) :
-    begins(0x93, 0x4e, 0x55, 0x4d) ? readNpy(bytes) : refuse("neither a PNG, a PFM nor an NPY file");
+  const map = startsWith(bytes, 0x89, 0x50, 0x4e, 0x47) ? await readPng(bytes) : startsWith(bytes, 0x50, 0x66) ? readPfm(bytes) :
+    isNpy(bytes) ? readNpy(bytes) : refuse("neither a PNG, a PFM nor an NPY file");
   if (map.bits === 8 && Number.isNaN(scale)) {
     refuse("a depth map of 8 bits needs its scale: give the metres that one unit stands for");
   }
@@ -141,15 +152,85 @@ async function readMap(bytes, scale) {
   return { columns: map.columns, rows: map.rows, metres };
 }
 
+// ---- Recordings ---------------------------------------------------------------------------------------------------
+
+/** The members of a ZIP archive, packed. */
+function zipMembers(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset);
+  let end = bytes.length - 22;
+  while (end >= 0 && view.getUint32(end, true) !== 0x06054b50) {
+    end -= 1;
+  }
+  if (end < 0) {
+    refuse("a damaged NPZ");
+  }
+  const members = new Map();
+  for (let i = 0, at = view.getUint32(end + 16, true); i < view.getUint16(end + 10, true); ++i) {
+    const [method, size, name, extra, comment, place] = [view.getUint16(at + 10, true), view.getUint32(at + 20, true), view.getUint16(at + 28, true),
+      view.getUint16(at + 30, true), view.getUint16(at + 32, true), view.getUint32(at + 42, true)];
+    const begin = place + 30 + view.getUint16(place + 26, true) + view.getUint16(place + 28, true);
+    members.set(new TextDecoder().decode(bytes.slice(at + 46, at + 46 + name)).replace(/\.npy$/, ""),
+      { method, packed: bytes.slice(begin, begin + size) });
+    at += 46 + name + extra + comment;
+  }
+  return members;
+}
+
+const unpack = ({ method, packed }) => method === 0 ? packed : method === 8 ? inflate(packed, "deflate-raw") : refuse("an NPZ that is packed unusually");
+
+/** Histograms and the width of their bins in an archive, as `dtof convert` writes it; else its only array. */
+async function readNpz(bytes) {
+  const members = await Promise.resolve(bytes).then(zipMembers).catch(() => refuse("a damaged NPZ"));
+  const named = members.get("histograms") ?? (members.size === 1 ? [...members.values()][0] : refuse("an NPZ without an array \"histograms\""));
+  const width = members.get("bin_width_ps");
+  const number = width ? npyHeader(await unpack(width)) : null;
+  return { contents: await unpack(named), width: number ? number.view.getFloat64(number.data, true) : NaN };
+}
+
+/** Axes that a depth map does not have: more than rows and columns of more than one. */
+const hasBins = (bytes) => isNpy(bytes) && npyShape(npyHeader(bytes)).filter((length) => length > 1).length > 2;
+
+/** A recording of this name, or null if the file is none. */
+async function readRecording(name, file) {
+  let bytes = file, histograms = false, binWidth = form["bin-width"].value === "" ? NaN : Number(form["bin-width"].value);
+  if (startsWith(bytes, 0x1f, 0x8b)) {
+    bytes = await inflate(bytes, "gzip").catch(() => refuse("damaged gzip data"));
+  }
+  if (startsWith(bytes, 0x50, 0x4b)) {
+    const { contents, width } = await readNpz(bytes);
+    bytes = contents;
+    binWidth = Number.isNaN(binWidth) ? width : binWidth;
+    histograms = true;
+  } else if (hasBins(bytes)) {
+    histograms = true;
+  } else if (!/\.csv(\.gz)?$/i.test(name)) {
+    return null;
+  }
+  if (bytes.length > LONGEST_RECORDING) {
+    refuse(`a recording of ${Math.ceil(bytes.length / 1e6)} MB; this page takes ${LONGEST_RECORDING / 1e6} MB, \`dtof replay\` more`);
+  }
+  if (bytes.length === 0) {
+    refuse("empty");
+  }
+  return { name, contents: new Blob([bytes]), histograms, binWidth: histograms ? binWidth : 0 };
+}
+
 // ---- What was given -----------------------------------------------------------------------------------------------
 
 function showGiven() {
-  for (const [kind, button] of [["sensor", byId("drop-sensor")], ["depth", byId("drop-depth")]]) {
+  for (const kind of ["sensor", "depth", "recording"]) {
+    const button = byId(`drop-${kind}`);
     button.hidden = !given[kind];
     button.textContent = given[kind] ? `${given[kind].name} \u00d7` : "";
   }
   form.sensor.disabled = Boolean(given.sensor);
-  form.scene.disabled = Boolean(given.depth);
+  form.scene.disabled = Boolean(given.depth || given.recording);
+  for (const name of ["reflectivity", "klux", "size"]) {
+    form[name].disabled = Boolean(given.recording);
+  }
+  for (const name of ["acquisitions", "seed"]) {  // what a TDC stream has of its own
+    form[name].disabled = Boolean(given.recording && !given.recording.histograms);
+  }
 }
 
 async function take(file) {
@@ -161,9 +242,24 @@ async function take(file) {
     askSensor({ name: file.name, text: new TextDecoder().decode(bytes) });
     return;
   }
+  const recording = await readRecording(file.name, bytes);
+  if (recording) {
+    lastRecording = recording.histograms ? file : null;
+    if (Number.isNaN(recording.binWidth)) {
+      refuse("histograms need the width of their bins: give it in ps");
+    }
+    give("recording", recording);
+    return;
+  }
   lastMap = file;
   const typed = form["depth-scale"].value;
-  given.depth = { name: file.name, scale: typed, ...await readMap(bytes, typed === "" ? NaN : Number(typed)) };
+  give("depth", { name: file.name, scale: typed, ...await readMap(bytes, typed === "" ? NaN : Number(typed)) });
+}
+
+/** A map or a recording: either takes the place of the other. */
+function give(kind, what) {
+  given.depth = given.recording = null;
+  given[kind] = what;
   showGiven();
   showControls();
   run();
@@ -194,6 +290,7 @@ function askSensor(sensor) {
 function drop(kind) {
   given[kind] = null;
   lastMap = kind === "depth" ? null : lastMap;
+  lastRecording = kind === "recording" ? null : lastRecording;
   showGiven();
   if (kind === "sensor") {
     takeSensor();
@@ -204,9 +301,14 @@ function drop(kind) {
 
 byId("drop-sensor").onclick = () => drop("sensor");
 byId("drop-depth").onclick = () => drop("depth");
+byId("drop-recording").onclick = () => drop("recording");
 form["depth-scale"].onchange = (event) => {
   event.stopPropagation();
   takeFiles(lastMap ? [lastMap] : []);
+};
+form["bin-width"].onchange = (event) => {
+  event.stopPropagation();
+  takeFiles(lastRecording ? [lastRecording] : []);
 };
 byId("file").onchange = (event) => {
   event.stopPropagation();  // a change of the form runs the models

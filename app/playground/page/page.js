@@ -100,7 +100,8 @@ function takeSensor() {
   showControls();
 }
 
-const sceneSummary = () => given.depth ? `${given.depth.name}, ${given.depth.columns} x ${given.depth.rows} pixels` :
+const sceneSummary = () => given.recording ? `${given.recording.name}, a recording` :
+  given.depth ? `${given.depth.name}, ${given.depth.columns} x ${given.depth.rows} pixels` :
   catalogue.scene.find(([name]) => name === form.scene.value)[1];
 
 /** Texts and fields that follow from other fields. */
@@ -109,7 +110,7 @@ function showControls() {
   byId("klux-text").value = form.klux.value;
   byId("reflectivity-text").value = form.reflectivity.value;
   for (const label of form.querySelectorAll("[data-scenes]")) {
-    label.hidden = Boolean(given.depth) || !label.dataset.scenes.split(" ").includes(form.scene.value);
+    label.hidden = Boolean(given.depth || given.recording) || !label.dataset.scenes.split(" ").includes(form.scene.value);
     label.querySelector("input").disabled = label.hidden;
   }
 }
@@ -128,18 +129,24 @@ function request() {
       said[name] = form[name].value;
     }
   }
+  const every = readouts.length === catalogue.readout.length;
+  const chosen = `--readout ${every ? "all" : readouts.join(",")}`;
+  const lines = (fields) => [...Object.entries(fields), ...readouts.map((name) => ["readout", name])].map((line) => line.join(" ")).join("\n");
+  const { sensor: own, depth, recording } = given;
+  if (recording) {
+    const [, , , , , , np, slots, time] = sensor();
+    const { sensor: preset, acquisitions, seed } = said;
+    const drawn = recording.histograms ? [`--bin-width ${recording.binWidth} --acquisitions ${acquisitions} --seed ${seed}`] : [];
+    return { what: "run", readouts, sensor: own, depth: null, recording,
+      text: lines(recording.histograms ? { sensor: preset, acquisitions, seed } : { sensor: preset }),
+      command: [`build/cpp/bin/dtof replay ${quoted(recording.name)}`, ...drawn, `--t-int ${time} --np ${np} --slots ${slots}`, chosen].join(" \\\n    ") };
+  }
   const option = { columns: "array-columns", rows: "array-rows" };
-  const { sensor: own, depth } = given;
   const command = [depth ? `--depth ${quoted(depth.name)}${depth.scale === "" ? "" : ` --depth-scale ${depth.scale}`}` : `--scene ${said.scene}`,
     `--sensor ${own ? quoted(own.name) : said.sensor}`,
     ...Object.entries(said).slice(2).map(([name, value]) => `--${option[name] ?? name} ${value}`)];
-  const every = readouts.length === catalogue.readout.length;
-  return {
-    what: "run", readouts, sensor: own, depth,
-    text: [...Object.entries(said), ...readouts.map((name) => ["readout", name])].map((line) => line.join(" ")).join("\n"),
-    command: [`build/cpp/bin/dtof frame ${command.slice(0, 4).join(" ")}`, command.slice(4).join(" "),
-      `--readout ${every ? "all" : readouts.join(",")}`].join(" \\\n    "),
-  };
+  return { what: "run", readouts, sensor: own, depth, recording: null, text: lines(said),
+    command: [`build/cpp/bin/dtof frame ${command.slice(0, 4).join(" ")}`, command.slice(4).join(" "), chosen].join(" \\\n    ") };
 }
 
 // ---- A run ----------------------------------------------------------------------------------------------
@@ -196,7 +203,7 @@ function run() {
   byId("command").textContent = asked.command;
   byId("shown").classList.add("stale");
   byId("progress").removeAttribute("value");
-  say("Calibrating the read-outs on flat targets ...");
+  say(asked.recording ? "Reading the recording ..." : "Calibrating the read-outs on flat targets ...");
 }
 
 const hear = {
@@ -213,6 +220,9 @@ const hear = {
     const known = message.truth.filter((metres) => !Number.isNaN(metres));
     scene.near = known.reduce((least, metres) => Math.min(least, metres), Infinity);
     scene.far = known.reduce((most, metres) => Math.max(most, metres), 0);
+    if (known.length === 0) {  // a recording has no truth
+      [scene.near, scene.far] = [0, Number(sensor()[5])];
+    }
     if (scene.far - scene.near < 0.2) {  // a flat scene: room for what is measured around it
       scene.near = Math.max(0, scene.near - 0.5);
       scene.far += 0.5;
@@ -263,34 +273,67 @@ function describePixel(frame, title) {
     const [code, , confidence] = frame.results.subarray(4 * i, 4 * i + 4);
     const truth = scene.truth[i];
     const off = Number.isNaN(frame.error[i]) ? "" : `, off by ${(100 * frame.error[i] / truth).toFixed(1)} %`;
-    return `${title} measured ${metres(frame.depth[i])}, true ${metres(truth)}${off}; code ${code}, confidence ${confidence}`;
+    return `${title} measured ${metres(frame.depth[i])}${scene.recorded ? "" : `, true ${metres(truth)}${off}`}; code ${code}, confidence ${confidence}`;
   };
 }
 
-/** Figures of a read-out: those of the frame, and what the silicon costs. */
+/** Figures of a read-out: those of the frame, and what the silicon costs. A recording has no true distance. */
 function figuresOf(frame) {
   const [rmse, bias, , above3, above10] = frame.figures;
   const silicon = cost.readouts[frame.readout];
-  return [["off by > 3 %", above3], ["off by > 10 %", above10], ["rmse", `${rmse} mm`], ["bias", `${bias} mm`],
-    ["area", silicon ? `${silicon.mm2} mm\u00b2${silicon.note ? " *" : ""}` : "-"], ["power", silicon ? `${silicon.mw} mW` : "-"]];
+  const judged = scene.recorded ? [["no distance", `${frame.depth.filter(Number.isNaN).length} pixels`]] :
+    [["off by > 3 %", above3], ["off by > 10 %", above10], ["rmse", `${rmse} mm`], ["bias", `${bias} mm`]];
+  return [...judged, ["area", silicon ? `${silicon.mm2} mm\u00b2${silicon.note ? " *" : ""}` : "-"], ["power", silicon ? `${silicon.mw} mW` : "-"]];
 }
 
-function show() {
-  const depthMap = (values, describe) => map(values, depthColour, "depth", describe);
-  const brightest = scene.reflectivity.reduce((most, value) => Math.max(most, value), 0);
-  const describeTruth = (i) => `true ${metres(scene.truth[i])}, reflectivity ${scene.reflectivity[i].toFixed(2)}`;
+/** The first card: how many detections each pixel of a recording has. */
+function recordingCard(brightest) {
+  const detections = scene.brightness.reduce((sum, value) => sum + value, 0);
+  return make("article", "", [
+    make("h3", "The recording"),
+    make("p", sceneSummary(), [], { class: "hint" }),
+    make("div", "", [map(scene.brightness, (value) => grey(value / Math.max(brightest, 1)), `detections, black 0, white ${brightest}`,
+      (i) => `${scene.brightness[i]} detections`)], { class: "maps" }),
+    make("dl", "", [["pixels", `${scene.columns} x ${scene.rows}`], ["detections", detections.toLocaleString("en")]].map(([name, value]) =>
+      make("div", "", [make("dt", name), make("dd", value)]))),
+  ]);
+}
+
+/** The first card: distances and reflectivity of a scene. */
+function sceneCard(brightest) {
+  const describeTruth = (i) => `true ${metres(scene.truth[i])}, reflectivity ${scene.brightness[i].toFixed(2)}`;
   const distances = Float32Array.from(scene.truth).filter((value) => !Number.isNaN(value)).sort();
-  const cards = [make("article", "", [
+  return make("article", "", [
     make("h3", "The scene"),
     make("p", sceneSummary(), [], { class: "hint" }),
     make("div", "", [
       map(scene.truth, depthColour, "depth", describeTruth),
-      map(scene.reflectivity, (value) => grey(value / brightest), `reflectivity, black 0, white ${brightest.toFixed(2)}`, describeTruth),
+      map(scene.brightness, (value) => grey(value / brightest), `reflectivity, black 0, white ${brightest.toFixed(2)}`, describeTruth),
     ], { class: "maps" }),
     make("dl", "", [["nearest", metres(distances[0])], ["middle", metres(distances[distances.length >> 1])],
       ["farthest", metres(distances[distances.length - 1])]].map(([name, value]) =>
       make("div", "", [make("dt", name), make("dd", value)]))),
-  ])];
+  ]);
+}
+
+/** Without true distances, the colours span what was measured, but for the nearest and the farthest 2 %. */
+function spanMeasured() {
+  const measured = Float32Array.from(frames.flatMap((frame) => [...frame.depth].filter((value) => !Number.isNaN(value)))).sort();
+  if (measured.length > 0) {
+    scene.near = measured[Math.floor(0.02 * (measured.length - 1))];
+    scene.far = Math.max(measured[Math.ceil(0.98 * (measured.length - 1))], scene.near + 0.2);
+  }
+}
+
+function show() {
+  if (scene.recorded) {
+    spanMeasured();
+  }
+  const depthMap = (values, describe) => map(values, depthColour, "depth", describe);
+  const brightest = scene.brightness.reduce((most, value) => Math.max(most, value), 0);
+  const cards = [scene.recorded ? recordingCard(brightest) : sceneCard(brightest)];
+  byId("error-ramp").hidden = scene.recorded;
+  byId("same-figures").hidden = scene.recorded;
   const rows = [];
   for (const frame of frames) {
     const [, title, summary] = catalogue.readout.find(([name]) => name === frame.readout);
@@ -299,7 +342,7 @@ function show() {
     cards.push(make("article", "", [
       make("h3", title),
       make("p", summary, [], { class: "hint" }),
-      make("div", "", [depthMap(frame.depth, describe), map(frame.error, errorColour, "error", describe)], { class: "maps" }),
+      make("div", "", [depthMap(frame.depth, describe), ...scene.recorded ? [] : [map(frame.error, errorColour, "error", describe)]], { class: "maps" }),
       make("dl", "", figures.map(([name, value]) => make("div", "", [make("dt", name), make("dd", value)]))),
     ], { "data-readout": frame.readout, style: `border-top: 0.3rem solid ${cost.readouts[frame.readout]?.colour ?? "var(--line)"}` }));
     const bits = cost.readouts[frame.readout]?.bits ?? "-";

@@ -4,7 +4,9 @@
 "use strict";
 
 const BARS = 128;
-const watched = { pixel: null, next: null, waiting: false, counts: [] };
+const STEPS = 64, POOL_STEPS = 24;  // of a trace; a pool read-out reads a whole engine for each
+const CELLS = 128;  // of candidates, over the range
+const watched = { pixel: null, next: null, waiting: false, counts: [], states: [], trace: 0 };
 
 /** Asks the models for a pixel; the last one that was pointed at while they were busy comes next. */
 function watchPixel(column, row) {
@@ -18,6 +20,7 @@ function watchPixel(column, row) {
 function askPixel() {
   if (!watched.waiting && watched.next) {
     watched.waiting = true;
+    watched.trace += 1;  // what comes of the last pixel is too late
     worker.postMessage({ what: "pixel", ...watched.next });
     watched.next = null;
   }
@@ -25,8 +28,11 @@ function askPixel() {
 
 /** After a run nothing is known of its pixels yet. */
 function forgetPixel() {
-  Object.assign(watched, { pixel: null, next: null, waiting: false, counts: [] });
+  Object.assign(watched, { pixel: null, next: null, waiting: false, counts: [], states: [], trace: watched.trace + 1 });
   byId("watch").hidden = true;
+  const list = byId("trace-readout"), before = list.value;
+  list.replaceChildren(...frames.map((frame) => make("option", readoutTitle(frame), [], { value: frame.readout })));
+  list.value = frames.some((frame) => frame.readout === before) ? before : frames[0].readout;
 }
 
 hear.pixel = (message) => {
@@ -35,12 +41,88 @@ hear.pixel = (message) => {
   byId("watch").hidden = false;
   paintPixel();
   askPixel();
+  startTrace();
 };
+
+// ---- The state of a read-out over the acquisitions ------------------------------------------------------------------
+
+function startTrace() {
+  watched.trace += 1;
+  watched.states = [];
+  paintTrace();
+  askState();
+}
+
+const tracedFrame = () => frames.findIndex((frame) => frame.readout === byId("trace-readout").value);
+const isPool = () => byId("trace-readout").value.startsWith("pool");
+const steps = () => Math.min(isPool() ? POOL_STEPS : STEPS, watched.pixel.acquisitions);
+
+/** One at a time, so that another pixel need not wait for all of them. */
+function askState() {
+  if (watched.pixel && !watched.waiting && watched.states.length < steps()) {
+    const until = Math.round(watched.pixel.acquisitions * (watched.states.length + 1) / steps());
+    worker.postMessage({ what: "state", readout: tracedFrame(), until, number: watched.trace });
+  }
+}
+
+hear.state = (message) => {
+  if (message.number === watched.trace) {
+    watched.states.push(message);
+    paintTrace();
+    askState();
+  }
+};
+
+/** The state at the time that the slider has: the last one not after it. */
+function stateNow() {
+  const until = untilNow();
+  return watched.states.filter((state) => state.until <= until).at(-1);
+}
+
+function paintTrace() {
+  const { acquisitions, codes } = watched.pixel;
+  const canvas = byId("trace"), context = canvas.getContext("2d"), style = getComputedStyle(document.body);
+  const range = Number(sensor()[5]);
+  const x = (acquisition) => acquisition / acquisitions * canvas.width, y = (share) => canvas.height * (1 - share);
+  const rectangle = (colour, left, top, width, height) => {
+    context.fillStyle = colour;
+    context.fillRect(left, top, width, height);
+  };
+  context.clearRect(0, 0, canvas.width, canvas.height);
+  const step = acquisitions / steps();
+  watched.states.forEach(({ until, candidates }) => {
+    const highest = Math.max(...candidates.map(({ score }) => score), 1);
+    candidates.forEach(({ cell, score }) => {
+      context.globalAlpha = 0.25 + 0.75 * score / highest;
+      rectangle(style.getPropertyValue("--quiet"), x(until - step) + 1, y((cell + 2) / CELLS), x(step) - 2, 4 / CELLS * canvas.height);
+    });
+  });
+  context.globalAlpha = 1;
+  const stairs = (colour, height, value) => watched.states.forEach((state) =>
+    rectangle(colour, x(state.until - step), y(value(state) / codes) - height / 2, x(step), height));
+  if (isPool()) {
+    stairs(style.getPropertyValue("--warn"), 2, (state) => state.rival);
+  }
+  stairs(style.getPropertyValue("--accent"), 4, (state) => state.position);
+  rectangle(style.getPropertyValue("--text"), x(untilNow()) - 1, 0, 2, canvas.height);
+  byId("trace-ends").replaceChildren(make("span", "0"), make("span", `up: 0 to ${range.toFixed(2)} m`), make("span", `${acquisitions} acquisitions`));
+  const place = (share) => `${(share * range).toFixed(2)} m`;
+  const now = stateNow();
+  const known = !now ? "" : `After ${now.until} acquisitions: at ${place(now.position / codes)} (code ${Number(now.position.toFixed(2))}), confidence ` +
+    `${now.confidence}${isPool() ? `, rival at ${place(now.rival / codes)}; candidates (score): ${now.candidates.map(({ cell, score }) =>
+      `${place(cell / CELLS)} (${score})`).join(", ")}` : ""}. `;
+  byId("trace-says").textContent = `${known}Each step is what the read-out makes of a frame whose light ends there${
+    isPool() ? "; grey: candidates, red: the rival" : ""}.`;
+}
+
+/** Acquisitions of the frame up to the slider. */
+const untilNow = () => Math.round(watched.pixel.acquisitions * byId("watch-time").value / byId("watch-time").max);
+
+// ---- Timestamps -----------------------------------------------------------------------------------------------------
 
 function paintPixel() {
   const { column, row, acquisition, timestamp, acquisitions, codes } = watched.pixel;
-  const time = byId("watch-time");
-  const until = Math.round(acquisitions * time.value / time.max);
+  const until = untilNow();
   const counts = Array(Math.min(BARS, codes)).fill(0);
   let seen = 0;
   acquisition.forEach((when, i) => {
@@ -76,5 +158,9 @@ function paintPixel() {
   byId("watch-ends").replaceChildren(make("span", "0 m"), make("span", `${(range / 2).toFixed(2)} m`), make("span", `${range.toFixed(2)} m`));
 }
 
-byId("watch-time").oninput = paintPixel;
+byId("watch-time").oninput = () => {
+  paintPixel();
+  paintTrace();
+};
+byId("trace-readout").oninput = startTrace;
 byId("watch-close").onclick = () => { byId("watch").hidden = true; };

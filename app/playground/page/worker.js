@@ -17,7 +17,11 @@ createModels().then((models) => {
   };
 
   /** Files that stand for the preset and the scene; null: none. */
-  function take(sensor, depth) {
+  function take(sensor, depth, recording) {
+    const bytes = recording ? new Uint8Array(new FileReaderSync().readAsArrayBuffer(recording.contents)) : new Uint8Array();
+    const begin = call("take_recording", "number", ["string", "number", "number"],
+      recording ? [recording.name, bytes.length, recording.binWidth] : ["", 0, 0]);
+    models.HEAPU8.set(bytes, begin);
     attempt("take_sensor", ["string", "string"], sensor ? [sensor.name, sensor.text] : ["", ""]);
     const place = call("take_map", "number", ["number", "number"], depth ? [depth.columns, depth.rows] : [0, 0]);
     if (depth) {
@@ -25,14 +29,14 @@ createModels().then((models) => {
     }
   }
 
-  function run({ text, readouts, sensor, depth }) {
-    take(sensor, depth);
+  function run({ text, readouts, sensor, depth, recording }) {
+    take(sensor, depth, recording);
     attempt("begin", ["string"], [text]);
     const columns = call("columns", "number");
     const rows = call("rows", "number");
     const pixels = columns * rows;
-    postMessage({ what: "scene", columns, rows, truth: floats("truth", pixels),
-      reflectivity: floats("reflectivity", pixels) });
+    postMessage({ what: "scene", columns, rows, recorded: Boolean(recording), truth: floats("truth", pixels),
+      brightness: floats("brightness", pixels) });
     attempt("calibrate");
     let told = 0;
     for (let column = 0; column < columns; ++column) {
@@ -65,12 +69,27 @@ createModels().then((models) => {
       codes: call("codes", "number") });
   }
 
+  /** What a read-out has of the last pixel if the light ends before an acquisition. */
+  function state({ readout, until, number }) {
+    attempt("state", ["number", "number"], [readout, until]);
+    const place = call("state_numbers", "number") / 2;
+    const [code, fraction, confidence, second] = models.HEAPU16.slice(place, place + 4);
+    attempt("candidates", ["number", "number"], [readout, until]);
+    const begin = call("candidate", "number") / 4;
+    const candidates = Array.from({ length: call("candidate_count", "number") }, (_, i) =>
+      ({ cell: models.HEAP32[begin + 2 * i], score: models.HEAP32[begin + 2 * i + 1] }));
+    const unit = 2 ** call("fraction_bits", "number", ["number"], [readout]);
+    postMessage({ what: "state", number, until, position: code + fraction / unit, confidence, rival: second / unit, candidates });
+  }
+
   onmessage = (event) => {
     try {
       if (event.data.what === "pixel") {
         pixel(event.data);
+      } else if (event.data.what === "state") {
+        state(event.data);
       } else if (event.data.what === "sensor") {
-        take(event.data.sensor, null);
+        take(event.data.sensor, null, null);
         postMessage({ what: "sensor", line: call("sensor", "string") });
       } else {
         run(event.data);

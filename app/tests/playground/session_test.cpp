@@ -9,6 +9,7 @@
 
 #include "dtof/core/error.hpp"
 #include "dtof/frame/array_rows.hpp"
+#include "dtof/pipeline/frame_pipeline.hpp"
 #include "dtof/readout/run_frame.hpp"
 #include "dtof/scene/scene.hpp"
 #include "dtof/sensor/default_parameters.hpp"

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "playground/pixel_trace.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace dtof {
+namespace {
+
+constexpr int kPairColumns = 2;  // columns that share a group
+
+/// The detections before an acquisition, as a stream of the same length.
+ColumnStream before(const ColumnStream& stream, std::uint32_t until) {
+  ColumnStream kept;
+  for (int row = 0; row < stream.rows(); ++row) {
+    const std::span<const Detection> all = stream.row(row);
+    const auto end = std::ranges::partition_point(
+        all, [&](const Detection& detection) { return detection.acquisition < until; });
+    kept.append_row(all.first(static_cast<std::size_t>(end - all.begin())));
+  }
+  return kept;
+}
+
+/// Another source's frame, whose light ends before an acquisition.
+class DarkAfter final : public StreamSource {
+ public:
+  DarkAfter(const StreamSource& source, std::uint32_t until) : source_(source), until_(until) {}
+
+  [[nodiscard]] int columns() const override { return source_.columns(); }
+  [[nodiscard]] int rows() const override { return source_.rows(); }
+  [[nodiscard]] std::uint32_t acquisitions() const override { return source_.acquisitions(); }
+  [[nodiscard]] ColumnStream column(int index) const override {
+    return before(source_.column(index), until_);
+  }
+  [[nodiscard]] ColumnStream column_rows(int index, RowRange rows) const override {
+    return before(source_.column_rows(index, rows), until_);
+  }
+
+ private:
+  const StreamSource& source_;
+  std::uint32_t until_;
+};
+
+/// A frame of one pixel.
+class OnePixel final : public StreamSource {
+ public:
+  OnePixel(const ColumnStream& pixel, std::uint32_t acquisitions)
+      : pixel_(pixel), acquisitions_(acquisitions) {}
+
+  [[nodiscard]] int columns() const override { return 1; }
+  [[nodiscard]] int rows() const override { return 1; }
+  [[nodiscard]] std::uint32_t acquisitions() const override { return acquisitions_; }
+  [[nodiscard]] ColumnStream column(int /*index*/) const override { return pixel_; }
+
+ private:
+  const ColumnStream& pixel_;
+  std::uint32_t acquisitions_;
+};
+
+/// Coarse histogram of a group, from the events of its columns. `rows`: those of the group.
+CoarseHistogram coarse_histogram(std::span<const PoolColumn> columns, RowRange rows, std::uint32_t until,
+                                 std::uint32_t coarse_end, int count_width) {
+  std::vector<CoarseHistogram> periods((coarse_end + kSweepPeriod - 1) / kSweepPeriod);
+  for (const PoolColumn& column : columns) {
+    const auto lit = [&](int row) {
+      const std::span<const PoolEvent> events = row < static_cast<int>(column.size())
+                                                    ? std::span(column[static_cast<std::size_t>(row)])
+                                                    : std::span<const PoolEvent>();
+      const auto end = std::ranges::partition_point(
+          events, [&](const PoolEvent& event) { return event.acquisition < std::min(until, coarse_end); });
+      return events.first(static_cast<std::size_t>(end - events.begin()));
+    };
+    for (int row = rows.first; row < rows.first + rows.count; row += 2) {
+      count_one_of_two_rows(lit(row), lit(row + 1), [&](const PoolEvent& event) {
+        if (event.acquisition % kSweepPeriod != kSweepPeriod - 1) {
+          ++periods[event.acquisition / kSweepPeriod]
+                   [static_cast<std::size_t>(event.preferred) / kUnitsPerCoarseBin];
+        }
+      });
+    }
+  }
+  CoarseHistogram histogram{};
+  for (std::size_t period = 0; period < periods.size(); ++period) {
+    if (!count_period(histogram, periods[period], (period + 1) * kSweepPeriod <= coarse_end, count_width)) {
+      break;  // frozen
+    }
+  }
+  return histogram;
+}
+
+/// Candidates of a group, as decode finds them: the first of `histograms` is the group's own.
+PoolGroup decode(std::span<const CoarseHistogram> histograms, const PoolNumbers& numbers) {
+  PairSums sums{};
+  const int unit = pool_template_unit(numbers.count_width);
+  std::array<int, kCoarseBins> bins{};
+  for (std::size_t i = 0; i < kCoarseBins; ++i) {
+    bins[i] = numbers.own_weight * histograms[0][i];
+    for (const CoarseHistogram& neighbour : histograms.subspan(1)) {
+      bins[i] += neighbour[i];
+    }
+    bins[i] = std::max(bins[i] - unit * numbers.coarse_template[i], 0);
+  }
+  TakenPairs taken = hidden_pairs(numbers.coarse_template);
+  int least = std::numeric_limits<int>::max();
+  for (std::size_t i = 0; i < kCoarsePairs; ++i) {
+    sums[i] = bins[i] + bins[i + 1];
+    least = taken[i] ? least : std::min(least, sums[i]);
+  }
+  PoolGroup group{};
+  group.labels = numbers.labels;
+  group.score_limit = (1 << numbers.score_bits) - 1;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(numbers.labels); ++k) {
+    const std::size_t peak = highest_pair(sums, taken);
+    group.centre_cell[k] = centre_cell(sums, peak);
+    take_leakage(sums, peak, std::max(sums[peak] - least, 0) >> numbers.leak_shift);
+    take_pairs(taken, peak);
+  }
+  return group;
+}
+
+/// Scores of a pixel for its group's candidates.
+PoolTracks tracked(std::span<const PoolEvent> events, std::uint32_t begin, std::uint32_t end,
+                   const PoolGroup& group, const PoolNumbers& numbers) {
+  PoolTracks tracks;
+  const auto is_near = [&](std::int32_t position) {
+    return std::any_of(
+        group.centre_cell.begin(), group.centre_cell.begin() + group.labels,
+        [&](std::int32_t cell) { return within(in_cells(position) - cell, numbers.track_reach); });
+  };
+  for (const PoolEvent& event : events) {
+    if (event.acquisition < begin || event.acquisition >= end) {
+      continue;
+    }
+    const bool leads = numbers.offset_bits > 0;
+    if (leads) {
+      const int score = tracks.score[static_cast<std::size_t>(tracks.leader)];
+      const int step = score < numbers.offset_gear[0] ? 4 : score < numbers.offset_gear[1] ? 2 : 1;
+      move_offset(tracks, group, event.preferred, step, numbers.offset_bits);
+    }
+    const std::int32_t position =
+        !is_near(event.preferred) && is_near(event.other) ? event.other : event.preferred;
+    score_candidate(tracks, group, position, numbers.track_reach, leads);
+  }
+  return tracks;
+}
+
+}  // namespace
+
+PixelResult PixelTrace::result(const ReadoutParameters& readout, std::uint32_t until) const {
+  if (!is_pool_readout(readout.readout)) {
+    if (pixel_.rows() == 0) {
+      pixel_ = source_.column_rows(column_, {row_, 1});
+    }
+    const OnePixel pixel(pixel_, source_.acquisitions());
+    return engine_.read(DarkAfter(pixel, until), readout, Region::whole(1, 1)).results.front();
+  }
+  ReadoutParameters both = readout;
+  both.pool.second_target = true;
+  const int first = column_ - column_ % readout.columns_together();
+  std::vector<int> columns(
+      static_cast<std::size_t>(std::min(readout.columns_together(), source_.columns() - first)));
+  std::iota(columns.begin(), columns.end(), first);
+  const std::size_t width = columns.size();
+  const std::vector<PixelResult> results =
+      engine_
+          .read(DarkAfter(kept_, until), both, {.columns = std::move(columns), .rows = {0, source_.rows()}})
+          .results;
+  return results[static_cast<std::size_t>(row_) * width + static_cast<std::size_t>(column_ - first)];
+}
+
+std::vector<PoolCandidate> PixelTrace::candidates(const ReadoutParameters& readout,
+                                                  std::uint32_t until) const {
+  if (!is_pool_readout(readout.readout)) {
+    return {};
+  }
+  const PoolNumbers numbers = pool_pointer_parameters(readout);
+  const PoolSchedule schedule(source_.acquisitions(), readout.pool);
+  const int engine_begin = column_ - column_ % readout.columns_together();
+  const int engine_end = std::min(engine_begin + readout.columns_together(), source_.columns());
+  const int array_rows = std::max(source_.rows(), kArrayRows);
+  const int height = (array_rows + numbers.group_rows - 1) / numbers.group_rows;
+  const int group_row = row_ / numbers.group_rows;
+  const int pair_begin = column_ - (column_ - engine_begin) % kPairColumns;
+  // Sensor rows of the group and of those above and below.
+  const int rows_begin = std::max(group_row - 1, 0) * numbers.group_rows;
+  const int rows_end = std::min((group_row + 2) * numbers.group_rows, source_.rows());
+  // A group without a neighbour on a side takes itself.
+  const int left = pair_begin > engine_begin ? pair_begin - kPairColumns : pair_begin;
+  const int right = pair_begin + kPairColumns < engine_end ? pair_begin + kPairColumns : pair_begin;
+  const int above = std::max(group_row - 1, 0);
+  const int below = std::min(group_row + 1, height - 1);
+
+  if (events_for_ != readout) {
+    events_for_ = readout;
+    events_.clear();
+    for (int column = left; column < std::min(right + kPairColumns, engine_end); ++column) {
+      events_.push_back(pool_column_events(source_.column_rows(column, {rows_begin, rows_end - rows_begin}),
+                                           readout.np, source_.acquisitions()));
+    }
+  }
+  const auto histogram = [&](int pair_column, int group) {
+    const int count = std::min(kPairColumns, engine_end - pair_column);
+    return coarse_histogram(std::span(events_).subspan(static_cast<std::size_t>(pair_column - left),
+                                                       static_cast<std::size_t>(count)),
+                            {group * numbers.group_rows - rows_begin, numbers.group_rows}, until,
+                            schedule.coarse_end, numbers.count_width);
+  };
+  const std::array<CoarseHistogram, 5> histograms = {
+      histogram(pair_begin, group_row), histogram(pair_begin, above), histogram(pair_begin, below),
+      histogram(left, group_row), histogram(right, group_row)};
+  const PoolGroup group = decode(histograms, numbers);
+  const PoolTracks tracks =
+      tracked(events_[static_cast<std::size_t>(column_ - left)][static_cast<std::size_t>(row_ - rows_begin)],
+              schedule.coarse_end, std::min(until, schedule.track_end), group, numbers);
+  std::vector<PoolCandidate> candidates;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(group.labels); ++k) {
+    candidates.push_back({group.centre_cell[k], tracks.score[k]});
+  }
+  return candidates;
+}
+
+}  // namespace dtof
