@@ -14,6 +14,8 @@
 
 namespace dtof {
 
+inline constexpr int kOneThread = 1;  ///< a page's worker has one
+
 /// What the detections of a session's frame come from: a scene, or a recording.
 class PlaygroundPhotons {
  public:

@@ -16,8 +16,6 @@
 namespace dtof {
 namespace {
 
-constexpr int kOneThread = 1;
-
 void require_in_range(const SensorModel& sensor, double metres) {
   if (metres >= sensor_range_m(sensor)) {
     throw InputError(fmt::format("{} m is beyond {}", metres, range_phrase(sensor)));

@@ -12,11 +12,6 @@
 #include "dtof/sensor/default_parameters.hpp"
 
 namespace dtof {
-namespace {
-
-constexpr int kOneThread = 1;
-
-}  // namespace
 
 PlaygroundSession::PlaygroundSession(const PlaygroundRequest& request, const PlaygroundFiles& files)
     : engine_({.threads = kOneThread, .observer = [](std::size_t, std::size_t) {}}),
