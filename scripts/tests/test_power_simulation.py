@@ -46,7 +46,11 @@ def simulated(design: Design, settings: dict[str, str]) -> dict[str, str]:
     def of_bench(path: str) -> str:
         return f"u_dut.{array}.u_core{path[len(array):]}"
 
-    clamps, forced, releases, lost, lost_memories = {}, [], [], [], []
+    clamps: dict[str, str] = {}
+    forced: list[str] = []
+    releases: list[str] = []
+    lost: list[str] = []
+    lost_memories: list[str] = []
     for root, domain in checker.roots.items():
         for port in design.scopes[root].ports:
             for entry in checker.isolation_of(root, port)[:1]:
@@ -89,7 +93,8 @@ class PowerSimulation(unittest.TestCase):
             (self.folder / name).write_text(text, encoding="utf-8")
         replaced = "dtof_pool_pointer_array.sv" if readout == upf.POOL else "dtof_array.sv"
         listed = [file for file in (upf.HDL / "dtof.f").read_text(encoding="utf-8").splitlines() if file.endswith(".sv") and file[0] != "/"]
-        files = [part for file in listed for part in ([self.folder / "core.sv", self.folder / "around.sv"] if file.endswith(f"/{replaced}") else [file])]
+        of_replaced = [str(self.folder / "core.sv"), str(self.folder / "around.sv")]
+        files = [part for file in listed for part in (of_replaced if file.endswith(f"/{replaced}") else [file])]
         program = self.folder / f"bench_{readout}.vvp"
         subprocess.run(["iverilog", "-g2012", "-I", self.folder, "-Icommon", "-s", "bench", f"-Pbench.READOUT={readout}", f"-Pbench.PRIOR={prior}",
                         "-o", program, *files, BENCH], cwd=upf.HDL, check=True)  # fmt: skip
