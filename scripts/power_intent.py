@@ -10,6 +10,7 @@ import re
 import sys
 from pathlib import Path
 
+from dtof_synth import program
 from upf import OPTIONS, Command, Design, IntentError, Scope, elaborate, execute, inside
 
 PRIOR_HOLDERS = "dtof_pool_quad"  # the module whose memories hold groups' words
@@ -299,13 +300,29 @@ def problems(file: Path, design: Design, settings: dict[str, str], separator: st
 
 
 def main() -> int:
+    if len(sys.argv) < 3:
+        print(__doc__, file=sys.stderr)
+        return 2
     file, top, *parameters = sys.argv[1:]
-    values = {name: int(value) for name, value in (parameter.split("=") for parameter in parameters)}
-    found = problems(Path(file), elaborate(top, values), {"dtof_prior": str(values.get("PRIOR", 0))})
+    if not Path(file).is_file():
+        print(f"error: {file} is no file", file=sys.stderr)
+        return 2
+    values: dict[str, int] = {}
+    for parameter in parameters:
+        if not (match := re.fullmatch(r"(\w+)=(\d+)", parameter)):
+            print(f"error: '{parameter}' is not PARAMETER=VALUE", file=sys.stderr)
+            return 2
+        values[match[1]] = int(match[2])
+    try:
+        design = elaborate(top, values)
+    except IntentError as error:
+        print(f"error: {top} with these parameters: {str(error).splitlines()[0].removeprefix('error: ')}", file=sys.stderr)
+        return 2
+    found = problems(Path(file), design, {"dtof_prior": str(values.get("PRIOR", 0))})
     for problem in found:
         print(f"error: {file}: {problem}", file=sys.stderr)
     return 1 if found else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    program.run(main)

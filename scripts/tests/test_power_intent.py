@@ -2,6 +2,7 @@
 """The power intent of constraints/power_intent fits the RTL of every read-out, and planted faults are found."""
 
 import re
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -146,6 +147,19 @@ class PowerIntent(unittest.TestCase):
             changed_design = Design(self.pool.top, scopes, self.pool.idle | changes)
             with self.subTest(name=name):
                 self.assertIn(said, "\n".join(power_intent.problems(INTENT / "dtof_subsystem.upf", changed_design, PRIOR)))
+
+
+
+class CommandLine(unittest.TestCase):
+    def test_bad_arguments_get_one_line(self) -> None:
+        file = "constraints/power_intent/dtof_array.upf"
+        for arguments, says in ((["gone.upf", "dtof_array"], "gone.upf is no file"), ([file, "dtof_array", "NB"], "'NB' is not PARAMETER=VALUE"),
+                                ([file, "gone"], "gone with these parameters: ")):
+            with self.subTest(arguments=arguments):
+                done = subprocess.run([ROOT / "scripts/power_intent.py", *arguments], cwd=ROOT, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 2)
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+                self.assertIn(says, done.stderr)
 
 
 if __name__ == "__main__":
