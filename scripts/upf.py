@@ -150,7 +150,8 @@ def scopes_of(text: str, top: str) -> dict[str, Scope]:
             here.ports[found[2]] = found[1]
         elif found := re.match(r'(v\w+?)(?:_0)? \.(net|var|array)\S* "(\w+)", (.*)$', line):
             bounds = re.match(r"(\d+) (\d+), ", found[4]) if found[2] == "array" else None
-            names[found[1]] = (here, found[3], (int(bounds[1]), int(bounds[2])) if bounds else None)
+            ends = sorted(map(int, bounds.groups())) if bounds else []  # Icarus Verilog 12 writes the last address first
+            names[found[1]] = (here, found[3], (ends[0], ends[1]) if bounds else None)
             if found[2] == "net":
                 here.sources[found[3]] = re.findall(r"\w+0x\w+", found[4])[0] if "0x" in found[4] else ""
             elif found[2] == "var":

@@ -7,6 +7,7 @@ import unittest
 from dataclasses import fields, replace
 from datetime import date
 from pathlib import Path
+from typing import Any
 from unittest import mock
 
 from dtof_synth import cli, gates, goals, report
@@ -19,6 +20,11 @@ from .small_results import MARGIN, ROOT, TIMING, result
 SLACKS = ("slack", "hold_slack", "reset_slack")
 
 
+def negative(slack: str) -> dict[str, Any]:
+    """A change of one slack, for dataclasses.replace."""
+    return {slack: -0.001}
+
+
 def failing(checks: list[Goal]) -> list[str]:
     return [check.text for check in checks if not check.met]
 
@@ -29,10 +35,10 @@ class Slacks(unittest.TestCase):
         self.assertEqual(failing([*gates.slacks({"ezpointer": good}), *goals.check({"ezpointer": good})]), [])
         for corner in ("slow", "fast"):
             for slack, kind in zip(SLACKS, ("setup", "hold", "reset")):
-                bad = replace(good, margins=good.margins | {corner: replace(MARGIN, **{slack: -0.001})})
+                bad = replace(good, margins=good.margins | {corner: replace(MARGIN, **negative(slack))})
                 self.assertEqual(failing(gates.slacks({"ezpointer": bad})), [f"ezpointer: {kind} with margins, {corner} corner"])
         for corner, slack, text in (("typical", "slack", "setup"), ("typical", "hold_slack", "hold"), ("slow", "hold_slack", "hold")):
-            bad = replace(good, timing=good.timing | {corner: replace(TIMING, **{slack: -0.001})})
+            bad = replace(good, timing=good.timing | {corner: replace(TIMING, **negative(slack))})
             self.assertEqual(failing(gates.slacks({"ezpointer": bad})), [f"ezpointer: {text}, {corner} corner"])
 
     def test_a_slow_edge_is_a_check_that_fails(self):
