@@ -364,6 +364,10 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
   files["Makefile"] = filled("Makefile", values);
   files["README.md"] = filled("README.md", values);
   files["constraints/dtof_product.sdc"] = filled("dtof_product.sdc", values);
+  for (const char* name : {"dtof_array.upf", "dtof_subsystem.upf"}) {
+    const std::string path = fmt::format("constraints/power_intent/{}", name);
+    files[path] = source(path);
+  }
   files["driver/check.c"] = filled("check.c", values);
   files["driver/dtof_product.h"] = driver_header(request);
   for (const char* name : {"dtof.c", "dtof.h", "dtof_registers.h"}) {

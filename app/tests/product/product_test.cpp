@@ -214,6 +214,10 @@ TEST(ProductFiles, NameEachOther) {
       }
     }
   }
+  EXPECT_THAT(files.at("constraints/power_intent/dtof_subsystem.upf"),
+              HasSubstr("load_upf [file join [file dirname [info script]] dtof_array.upf]"));
+  EXPECT_THAT(files.at("constraints/power_intent/dtof_array.upf"), HasSubstr("create_power_domain PD_ARRAY"));
+  EXPECT_THAT(files.at("README.md"), HasSubstr("| `constraints/power_intent/` |"));
   for (const auto& [path, text] : files) {
     if (path != "LICENSE" && !path.starts_with("vectors/") && path != "sensor.toml") {
       EXPECT_THAT(text, Not(HasSubstr("@COLUMNS@"))) << path;
