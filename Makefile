@@ -11,7 +11,7 @@
 # make quick      what takes seconds: format, types, generated files, documents, stale figures
 # make try-targets  every target on little work, in a copy of the last commit: what is broken (scripts/try_targets.py)
 # make lint       RTL in three tools, C++ format and static analysis; make lint-slang: RTL in slang, a strict front end from npm
-# make formal     proofs of the RTL (ten minutes)
+# make formal     proofs of the RTL (25 minutes)
 # make coverage   what the tests reach (scripts/faults.mk)
 # make wave       READOUT's waveform; make full: dtof with subsystems and the RTL of poolPointer (scripts/wave.mk)
 # make fpga-check what a small subsystem takes on four FPGA families, by Yosys (scripts/fpga.mk)

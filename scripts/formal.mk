@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# make formal         proofs of formal/proofs.toml, each with planted bugs (ten minutes on two cores)
+# make formal         proofs of formal/proofs.toml, each with planted bugs (25 minutes on two cores)
 #                     QUICK=1              those of two minutes, for CI
 #                     PROOFS="minimum ..." some proofs (no report)
 .PHONY: formal

@@ -52,7 +52,7 @@ def python(text: str) -> str:
     return "\n".join(lines)
 
 
-@functools.cache
+@functools.lru_cache(maxsize=4096)  # more than the project's files, and not every version of a history
 def stripped(path: str, content: bytes) -> bytes:
     """The content of a file from which its digest is computed; `path` gives the language. Kept, because pages ask many times."""
     suffix = PurePosixPath(path).suffix
