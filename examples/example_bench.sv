@@ -216,10 +216,10 @@ module example_bench #(
     fraction_bits = int'(value[dtof_registers_pkg::WIDTHS_FRACTION_LSB+:dtof_registers_pkg::WIDTHS_FRACTION_WIDTH]);
 
     write(dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
-    // poolPointer's schedule: 14/64 of the frame for the coarse phase, 20/64 for the track phase.
+    // poolPointer's schedule: 14/64 of the frame for the coarse phase, 30/64 for the track phase.
     if (READOUT == dtof_pkg::READOUT_POOLPOINTER) begin
       write(dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
-      write(dtof_registers_pkg::TRACK_END, ACQUISITIONS * 34 / 64);
+      write(dtof_registers_pkg::TRACK_END, ACQUISITIONS * 44 / 64);
     end
     write(dtof_registers_pkg::WEAK_BELOW, 2);
     write(dtof_registers_pkg::IRQ_ENABLE, 32'd1 << dtof_registers_pkg::IRQ_ENABLE_FRAME_LSB);

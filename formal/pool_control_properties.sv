@@ -56,7 +56,13 @@ module pool_control_properties #(
 
   logic busy, done, stream, coarse, point, more, acq_done, stream_idle, clear, decode, choose, decide;
   logic [2:0] state;
-  logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition;
+  logic [dtof_pkg::POOL_ACQUISITION_WIDTH-1:0] acquisition, told;
+  logic [dtof_pkg::POOL_THINNING_WIDTH-1:0] thinning_t2, expected_thinning_q;
+  logic is_sweep_q;  // free, because a frame of 64 acquisitions is too long for the proof
+  // High bits of an acquisition's number; free, too.
+  (* anyconst *) logic [2:0] high;
+  assign told = acquisition | (dtof_pkg::POOL_ACQUISITION_WIDTH'(high) << 6)
+      | dtof_pkg::POOL_ACQUISITION_WIDTH'({dtof_pkg::POOL_SWEEP_WIDTH{is_sweep_q}});
   logic [ADDR_WIDTH-1:0] clear_address, stream_address;
 
   dtof_pool_controller #(
@@ -92,7 +98,7 @@ module pool_control_properties #(
   logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
   logic [PART_WIDTH-1:0] part;
-  logic sweep, make_room, is_sweep_q;  // free, because a frame of 64 acquisitions is too long for the proof
+  logic sweep, make_room;
 
   dtof_pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
@@ -106,7 +112,7 @@ module pool_control_properties #(
       .coarse_i         (coarse),
       .groups_i         (!coarse && !point),
       .more_i           (more),
-      .acquisition_t1_i (acquisition | {dtof_pkg::POOL_SWEEP_WIDTH{is_sweep_q}}),
+      .acquisition_t1_i (told),
       .tdc_valid_i      (tdc_valid_i),
       .tdc_ready_o      (ready),
       .acq_done_o       (acq_done),
@@ -119,6 +125,7 @@ module pool_control_properties #(
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .acquisition_t2_o (acquisition_t2),
+      .thinning_t2_o    (thinning_t2),
       .keep_first_o     (keep_first),
       .keep_last_o      (keep_last),
       .load_o           (load),
@@ -186,6 +193,7 @@ module pool_control_properties #(
       .first_row_t2_i  (first_row_t2),
       .second_row_t2_i (second_row_t2),
       .acquisition_t2_i(acquisition_t2),
+      .thinning_t2_i   (thinning_t2),
       .keep_first_i    (keep_first),
       .keep_last_i     (keep_last),
       .load_i          (load),
@@ -243,6 +251,7 @@ module pool_control_properties #(
       is_sweep_q <= 1'b0;
     end else begin
       begins_q <= acquisition_begins;
+      expected_thinning_q <= ((32'(told) >> 4) % 4 == 0) ? {told[6], told[7], told[8]} : 3'd7;
       if (acquisition_begins) is_sweep_q <= sweep_i;
       frame_q <= (start_i && !frame_q) || (frame_q && !done);
       accepted_q <= start_i && !frame_q;
@@ -294,7 +303,8 @@ module pool_control_properties #(
   `PROVE(a_no_state_lasts, 32'(stay_q) < LONGEST_STAY)
   `PROVE(a_reset_clears_once, !(stay_ends && state_q == dtof_pool_pkg::POOL_STATE_RESET) || clears_q == 2'd1)
   `PROVE(a_stream_alone, !(accepted && (clear || working_q)))
-  `PROVE(a_acquisition_number, !begins_q || acquisition == dtof_pkg::POOL_SWEEP_WIDTH'(acquisitions_q - 1'b1))
+  `PROVE(a_acquisition_number, !begins_q || acquisition == dtof_pkg::POOL_ACQUISITION_WIDTH'(acquisitions_q - 1'b1))
+  `PROVE(a_thinning, !begins_q || thinning_t2 == expected_thinning_q)
   `GOAL(done && acq_num_q == ACQ_WIDTH'(3) && coarse_end_q == ACQ_WIDTH'(1) && track_end_q == ACQ_WIDTH'(2))
 
 endmodule

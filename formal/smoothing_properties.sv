@@ -76,7 +76,7 @@ module smoothing_properties #(
 
   always_comb begin
     centre = 32'(positions[31:16]);
-    reach = (CELL_SHIFT == 10) ? 2048 : bright[1] ? 1536 : 1024;
+    reach = (CELL_SHIFT == 10) ? 2048 : (bright[1] && 32'(margins[CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]) < 64) ? 1536 : 1024;
     sum = 0;
     expected_near = 3'b000;
     for (i = 0; i <= 2; i = i + 1) begin  // above, below, to the left

@@ -21,6 +21,7 @@ module twin_pointer_update_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
     input logic                   valid_i,
     input logic [           15:0] position_i,
     input logic [            3:0] acquisition_i,
+    input logic                   thinned_i,
     input logic [POINT_WIDTH-1:0] word_i,
     input logic [   LABELS*7-1:0] cells_i
 );
@@ -89,6 +90,7 @@ module twin_pointer_update_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .rival_hit_i  (distance.rival_hit),
       .rival_up_i   (distance.rival_up),
       .rival_down_i (distance.rival_down),
+      .thinned_i    (thinned_i),
       .acquisition_i(acquisition_i),
       .changed_o    (changed),
       .word_o       (word)
@@ -144,7 +146,7 @@ module twin_pointer_update_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
     next_a = a;
     next_b = b;
     period = (n < HALF) ? 1 : (n < HALF + HALF / 2) ? 4 : 16;
-    counted = (32'(acquisition_i) & (period - 1)) == 0;
+    counted = !thinned_i && (32'(acquisition_i) & (period - 1)) == 0;
     roles_change = rival && n == 0;
     next_n = n;
     if (expected_hit && counted && n < FULL) next_n = n + 1;

@@ -26,7 +26,7 @@ WRITTEN = written_root(ROOT) / "reports"
 BUILD = written_root(ROOT) / "build" / "trade"
 
 # 64ths of the frame: coarse, track; the rest is the pointer phase.
-SCHEDULES = ((18, 20), (16, 20), (16, 16), (14, 24), (14, 20), (14, 16), (12, 24), (12, 20), (12, 16), (10, 20))
+SCHEDULES = ((18, 30), (16, 30), (14, 40), (14, 35), (14, 30), (14, 25), (14, 20), (12, 35), (12, 30), (12, 25))
 SCENES = ("flat", "room", "planes", "clutter", "poles", "isolated")
 COLUMNS = 2 if is_small() else 50
 SINGLE_COLUMNS = 20 if is_small() else 200  # single pixels are few

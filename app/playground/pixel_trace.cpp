@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -62,93 +61,6 @@ class OnePixel final : public StreamSource {
   std::uint32_t acquisitions_;
 };
 
-/// Coarse histogram of a group, from the events of its columns. `rows`: those of the group.
-CoarseHistogram coarse_histogram(std::span<const PoolColumn> columns, RowRange rows, std::uint32_t until,
-                                 std::uint32_t coarse_end, int count_width) {
-  std::vector<CoarseHistogram> periods((coarse_end + kSweepPeriod - 1) / kSweepPeriod);
-  for (const PoolColumn& column : columns) {
-    const auto lit = [&](int row) {
-      const std::span<const PoolEvent> events = row < static_cast<int>(column.size())
-                                                    ? std::span(column[static_cast<std::size_t>(row)])
-                                                    : std::span<const PoolEvent>();
-      const auto end = std::ranges::partition_point(
-          events, [&](const PoolEvent& event) { return event.acquisition < std::min(until, coarse_end); });
-      return events.first(static_cast<std::size_t>(end - events.begin()));
-    };
-    for (int row = rows.first; row < rows.first + rows.count; row += 2) {
-      count_one_of_two_rows(lit(row), lit(row + 1), [&](const PoolEvent& event) {
-        if (event.acquisition % kSweepPeriod != kSweepPeriod - 1) {
-          ++periods[event.acquisition / kSweepPeriod]
-                   [static_cast<std::size_t>(event.preferred) / kUnitsPerCoarseBin];
-        }
-      });
-    }
-  }
-  CoarseHistogram histogram{};
-  for (std::size_t period = 0; period < periods.size(); ++period) {
-    if (!count_period(histogram, periods[period], (period + 1) * kSweepPeriod <= coarse_end, count_width)) {
-      break;  // frozen
-    }
-  }
-  return histogram;
-}
-
-/// Candidates of a group, as decode finds them: the first of `histograms` is the group's own.
-PoolGroup decode(std::span<const CoarseHistogram> histograms, const PoolNumbers& numbers) {
-  PairSums sums{};
-  const int unit = pool_template_unit(numbers.count_width);
-  std::array<int, kCoarseBins> bins{};
-  for (std::size_t i = 0; i < kCoarseBins; ++i) {
-    bins[i] = numbers.own_weight * histograms[0][i];
-    for (const CoarseHistogram& neighbour : histograms.subspan(1)) {
-      bins[i] += neighbour[i];
-    }
-    bins[i] = std::max(bins[i] - unit * numbers.coarse_template[i], 0);
-  }
-  TakenPairs taken = hidden_pairs(numbers.coarse_template);
-  int least = std::numeric_limits<int>::max();
-  for (std::size_t i = 0; i < kCoarsePairs; ++i) {
-    sums[i] = bins[i] + bins[i + 1];
-    least = taken[i] ? least : std::min(least, sums[i]);
-  }
-  PoolGroup group{};
-  group.labels = numbers.labels;
-  group.score_limit = (1 << numbers.score_bits) - 1;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(numbers.labels); ++k) {
-    const std::size_t peak = highest_pair(sums, taken);
-    group.centre_cell[k] = centre_cell(sums, peak);
-    take_leakage(sums, peak, std::max(sums[peak] - least, 0) >> numbers.leak_shift);
-    take_pairs(taken, peak);
-  }
-  return group;
-}
-
-/// Scores of a pixel for its group's candidates.
-PoolTracks tracked(std::span<const PoolEvent> events, std::uint32_t begin, std::uint32_t end,
-                   const PoolGroup& group, const PoolNumbers& numbers) {
-  PoolTracks tracks;
-  const auto is_near = [&](std::int32_t position) {
-    return std::any_of(
-        group.centre_cell.begin(), group.centre_cell.begin() + group.labels,
-        [&](std::int32_t cell) { return within(in_cells(position) - cell, numbers.track_reach); });
-  };
-  for (const PoolEvent& event : events) {
-    if (event.acquisition < begin || event.acquisition >= end) {
-      continue;
-    }
-    const bool leads = numbers.offset_bits > 0;
-    if (leads) {
-      const int score = tracks.score[static_cast<std::size_t>(tracks.leader)];
-      const int step = score < numbers.offset_gear[0] ? 4 : score < numbers.offset_gear[1] ? 2 : 1;
-      move_offset(tracks, group, event.preferred, step, numbers.offset_bits);
-    }
-    const std::int32_t position =
-        !is_near(event.preferred) && is_near(event.other) ? event.other : event.preferred;
-    score_candidate(tracks, group, position, numbers.track_reach, leads);
-  }
-  return tracks;
-}
-
 }  // namespace
 
 PixelResult PixelTrace::result(const ReadoutParameters& readout, std::uint32_t until) const {
@@ -205,18 +117,27 @@ std::vector<PoolCandidate> PixelTrace::candidates(const ReadoutParameters& reado
   }
   const auto histogram = [&](int pair_column, int group) {
     const int count = std::min(kPairColumns, engine_end - pair_column);
-    return coarse_histogram(std::span(events_).subspan(static_cast<std::size_t>(pair_column - left),
-                                                       static_cast<std::size_t>(count)),
-                            {group * numbers.group_rows - rows_begin, numbers.group_rows}, until,
-                            schedule.coarse_end, numbers.count_width);
+    return group_histogram(std::span(events_).subspan(static_cast<std::size_t>(pair_column - left),
+                                                      static_cast<std::size_t>(count)),
+                           static_cast<std::size_t>(group * numbers.group_rows - rows_begin),
+                           static_cast<std::size_t>(numbers.group_rows), until, schedule.coarse_end,
+                           numbers.count_width);
   };
-  const std::array<CoarseHistogram, 5> histograms = {
-      histogram(pair_begin, group_row), histogram(pair_begin, above), histogram(pair_begin, below),
-      histogram(left, group_row), histogram(right, group_row)};
-  const PoolGroup group = decode(histograms, numbers);
-  const PoolTracks tracks =
-      tracked(events_[static_cast<std::size_t>(column_ - left)][static_cast<std::size_t>(row_ - rows_begin)],
-              schedule.coarse_end, std::min(until, schedule.track_end), group, numbers);
+  const CoarseHistogram own = histogram(pair_begin, group_row);
+  const std::array<CoarseHistogram, 4> around = {histogram(pair_begin, above), histogram(pair_begin, below),
+                                                 histogram(left, group_row), histogram(right, group_row)};
+  // The significance, which counts missing neighbours, does not show here.
+  const PoolGroup group = decode_group(
+      {.own = &own, .neighbours = {&around[0], &around[1], &around[2], &around[3]}, .missing = 0}, {},
+      source_.acquisitions(), numbers);
+  PoolTracks tracks;
+  const std::vector<PoolEvent>& events =
+      events_[static_cast<std::size_t>(column_ - left)][static_cast<std::size_t>(row_ - rows_begin)];
+  for (const PoolEvent& event : events) {
+    if (event.acquisition >= schedule.coarse_end && event.acquisition < std::min(until, schedule.track_end)) {
+      track_event(tracks, group, event, numbers);
+    }
+  }
   std::vector<PoolCandidate> candidates;
   for (std::size_t k = 0; k < static_cast<std::size_t>(group.labels); ++k) {
     candidates.push_back({group.centre_cell[k], tracks.score[k]});

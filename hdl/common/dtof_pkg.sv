@@ -111,6 +111,10 @@ package dtof_pkg;
   localparam int POOL_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
   localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words share one register on the way to the engine (dtof_pool_line)
   localparam int POOL_SWEEP_WIDTH = 6;     // every 2^6-th acquisition of the coarse phase is a sweep
+  localparam int POOL_ACQUISITION_WIDTH = 9;  // low bits of an acquisition's number, on which sweeps, dither and thinning depend
+  localparam int POOL_THINNING_WIDTH = 3;     // eighths of the range: how many of them an acquisition leaves out, at most
+  // Scores are thinned in groups whose background is at least 4: one of its highest four bits is 1, and a group's word stores these.
+  localparam int POOL_THINNED_BITS = 4;
   // Bits of pool_engine_command_t (dtof_pool_pkg), as a number because Yosys 0.23 has no $bits of a type, and Icarus 11 none of a
   // variable of such a type. Every lint reports a wrong number.
   localparam int POOL_COMMAND_WIDTH = 65;

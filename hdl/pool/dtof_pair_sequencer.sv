@@ -44,7 +44,7 @@ module dtof_pair_sequencer #(
     input  logic                  coarse_i,          // this phase is the coarse phase
     input  logic                  groups_i,          // the phase needs the groups' words; low in the coarse phase
     input  logic                  more_i,            // the phase has another acquisition to take
-    input  logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1_i,  // low bits of the acquisition's number, of the timestamp at T1
+    input  logic [dtof_pkg::POOL_ACQUISITION_WIDTH-1:0] acquisition_t1_i,  // low bits of the acquisition's number, of the timestamp at T1
     input  logic                  tdc_valid_i,
     output logic                  tdc_ready_o,
     output logic                  acq_done_o,        // the last timestamp of an acquisition is at the port
@@ -59,6 +59,8 @@ module dtof_pair_sequencer #(
     output logic                  first_row_t2_o,    // coarse: a pair's first pixel is complete
     output logic                  second_row_t2_o,   // coarse: a pair's second pixel is complete
     output logic [           3:0] acquisition_t2_o,
+    output logic [dtof_pkg::POOL_THINNING_WIDTH-1:0] thinning_t2_o,  // level of this acquisition; a timestamp in eighth e of the range
+                                                                    // (0 to 7) is thinned if level < 7 - e
     // coarse
     output logic                  keep_first_o,      // four parts, T3 of a first pair: register the columns' choice
     output logic                  keep_last_o,       // four parts, T3 of a second pair: register the columns' choice
@@ -196,6 +198,7 @@ module dtof_pair_sequencer #(
   logic [PAIR_WIDTH-1:0] pair_t3;
   logic second_visit_t2_q, second_visit_t3_q, second_row_t2_q, second_row_t3_q, second_pair_t2_q, second_pair_t3_q;
   logic [3:0] acquisition_t2_q;
+  logic [dtof_pkg::POOL_THINNING_WIDTH-1:0] thinning_t2_q;
   logic sweep_t1, sweep_t2_q, sweep_then, second_visit_then;
   logic [PAIR_WIDTH-1:0] pair_then;  // pair, one clock before load_o of the first part
   logic read_part, load_part, write_part;
@@ -233,7 +236,7 @@ module dtof_pair_sequencer #(
     end
   end
 
-  assign sweep_t1 = (acquisition_t1_i == {dtof_pkg::POOL_SWEEP_WIDTH{1'b1}});
+  assign sweep_t1 = (acquisition_t1_i[dtof_pkg::POOL_SWEEP_WIDTH-1:0] == {dtof_pkg::POOL_SWEEP_WIDTH{1'b1}});
   assign sweep_then = (PARTS == 2) ? sweep_t1 : sweep_t2_q;
   assign pair_then = pair_tn[(FIRST_STAGE+1)*PAIR_WIDTH+:PAIR_WIDTH];
   assign second_visit_then = ((32'(pair_then) % GROUP_PAIRS) / VISIT_PAIRS == 1);
@@ -241,6 +244,9 @@ module dtof_pair_sequencer #(
   always_ff @(posedge clk_i) begin
     pair_tn_q <= pair_tn[PAIR_WIDTH+:(LAST_STAGE-1)*PAIR_WIDTH];
     acquisition_t2_q <= acquisition_t1_i[3:0];
+    // One acquisition of four thins. The levels of these come in the reverse order of their bits, so that short frames have all.
+    thinning_t2_q <= {acquisition_t1_i[6], acquisition_t1_i[7], acquisition_t1_i[8]}
+        | {dtof_pkg::POOL_THINNING_WIDTH{acquisition_t1_i[5:4] != 2'd0}};
     sweep_t2_q <= sweep_t1;
     first_row_t2_o <= coarse_i && last_step_t1 && !second_pixel_t1_q;
     second_pair_t2_q <= pair_t1_q[0];
@@ -263,6 +269,7 @@ module dtof_pair_sequencer #(
   assign odd_t1_o = acquisition_t1_i[0];
   assign second_row_t0_o = second_pixel;
   assign acquisition_t2_o = acquisition_t2_q;
+  assign thinning_t2_o = thinning_t2_q;
   assign second_row_t2_o = second_row_t2_q;
   assign keep_first_o = second_row_t3_q && PARTS == 4 && !second_pair_t3_q;
   assign keep_last_o = second_row_t3_q && PARTS == 4 && second_pair_t3_q;

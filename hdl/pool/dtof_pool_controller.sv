@@ -34,7 +34,7 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
     output logic                  coarse_o,
     output logic                  point_o,
     output logic                  more_o,
-    output logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1_o,  // low bits of the acquisition's number, of the timestamp at T1
+    output logic [dtof_pkg::POOL_ACQUISITION_WIDTH-1:0] acquisition_t1_o,  // low bits of the acquisition's number, of the timestamp at T1
     input  logic                  acq_done_i,
     input  logic                  stream_idle_i,
     // clear
@@ -176,7 +176,7 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign coarse_o = coarse_q;
   assign point_o = point_q;
   assign more_o = more_q;
-  assign acquisition_t1_o = dtof_pkg::POOL_SWEEP_WIDTH'(acquisition_q);
+  assign acquisition_t1_o = dtof_pkg::POOL_ACQUISITION_WIDTH'(acquisition_q);
   // One clock after the state, because only then all engines' words are 0.
   assign clear_o = (state_q == dtof_pool_pkg::POOL_STATE_RESET) && !entered_q;
   assign clear_address_o = address_q;

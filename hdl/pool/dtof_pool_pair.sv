@@ -79,6 +79,7 @@ module dtof_pool_pair #(
     input  logic                  first_row_t2_i,    // coarse
     input  logic                  second_row_t2_i,
     input  logic [           3:0] acquisition_t2_i,
+    input  logic [dtof_pkg::POOL_THINNING_WIDTH-1:0] thinning_t2_i,  // level, as in dtof_pair_sequencer
     // coarse
     input  logic                  keep_first_i,      // four parts: register the choices of the first two of four rows
     input  logic                  keep_last_i,       // four parts: register the choices of the last two rows
@@ -120,6 +121,8 @@ module dtof_pool_pair #(
   localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES);
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
   localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH);
+  // First of the highest bits of a group's background, in the group's word.
+  localparam int BRIGHT_FIRST = dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH) - dtof_pkg::POOL_THINNED_BITS;
 
   logic [WORD_WIDTH-1:0] word_q;
   logic [COLUMNS-1:0] detected_t1, may_have_t1, detected_t2, held_valid, upper_t2;
@@ -253,6 +256,7 @@ module dtof_pool_pair #(
 
   logic read_selected_q, upper_q, replaced_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load, changed_q;
   logic [CELLS_WIDTH-1:0] cells_q;
+  logic bright_q;  // the group's background is so strong that its scores are thinned
   logic [PIXEL_WIDTH-1:0] moved;
   logic changes;  // `moved` differs from the pixel's word
   // [i] of turn_q: pixel i is in clock 0 of dtof_pool_pixel_update; of move_q: pixel i is in clock 1, and `moved` is its next word. A
@@ -269,6 +273,8 @@ module dtof_pool_pair #(
     changed_q <= (takes_pixel != '0) || (changed_q && !word_load_q);
     if (group_load_i) begin
       cells_q <= group_upper_i ? read_data_i[HALF_WIDTH+:CELLS_WIDTH] : read_data_i[CELLS_WIDTH-1:0];
+      bright_q <= (group_upper_i ? read_data_i[HALF_WIDTH+BRIGHT_FIRST+:dtof_pkg::POOL_THINNED_BITS]
+                   : read_data_i[BRIGHT_FIRST+:dtof_pkg::POOL_THINNED_BITS]) != '0;
     end
     // Held in stream phases, which begin long after the engine's last read.
     if (engine_i) begin
@@ -315,7 +321,8 @@ module dtof_pool_pair #(
 
   // Track and point: the pixel whose turn it is.
 
-  logic turn_valid, first_column_turn, second_column_turn;
+  logic turn_valid, first_column_turn, second_column_turn, turn_thinned, thinned_t3_q;
+  logic [COLUMNS-1:0] thinned_t2;
   logic [3:0] acquisition_q;
   logic [COLUMNS*NP-1:0] used_t2;
   logic [COLUMNS*LABELS-1:0] hits_t2;
@@ -330,6 +337,7 @@ module dtof_pool_pair #(
   assign first_column_turn = turn_q[0] || turn_q[1];
   // 0 without a turn, so that the logic behind does not switch in the coarse phase.
   assign turn_timestamp = (used_t3_q & {NP{second_column_turn}}) | (used_t2[NP-1:0] & {NP{first_column_turn}});
+  assign turn_thinned = second_column_turn ? thinned_t3_q : thinned_t2[0];
   assign turn_hits = (hits_t3_q & {LABELS{second_column_turn}}) | (hits_t2[LABELS-1:0] & {LABELS{first_column_turn}});
 
   always_ff @(posedge clk_i) begin
@@ -390,6 +398,7 @@ module dtof_pool_pair #(
       if (detected_t2[LAST]) begin
         used_t3_q <= used_t2[LAST*NP+:NP];
         hits_t3_q <= hits_t2[LAST*LABELS+:LABELS];
+        thinned_t3_q <= thinned_t2[LAST];
       end
     end
   end
@@ -410,6 +419,7 @@ module dtof_pool_pair #(
       .valid_i      (turn_valid),
       .timestamp_i  (turn_timestamp),
       .hits_i       (turn_hits),
+      .thinned_i    (turn_thinned),
       .leader_cell_i(leader_cell_q),
       .word_i       (turn_pixel),
       .acquisition_i(acquisition_q),
@@ -438,6 +448,8 @@ module dtof_pool_pair #(
         logic [CELL_WIDTH-1:0] pointer_cell, first_row_cell;
         logic compares, is_read;
         assign is_read = ahead_q || (c == 1 && word_load_q);
+        // Thinned: in an early eighth of the range, for the level of this acquisition. In the track phase only in bright groups.
+        assign thinned_t2[c] = (point_i || bright_q) && thinning_t2_i < ~used_t2[c*NP+NP-1-:dtof_pkg::POOL_THINNING_WIDTH];
         assign first_row_cell = (c == 0) ? first_pixel_q[CELL_FIRST+:CELL_WIDTH] : word_q[HALF_WIDTH+CELL_FIRST+:CELL_WIDTH];
         assign pointer_cell = (read_data_i[c*HALF_WIDTH+CELL_FIRST+:CELL_WIDTH] & {CELL_WIDTH{compares && is_read}})
             | (word_q[c*HALF_WIDTH+PIXEL_WIDTH+CELL_FIRST+:CELL_WIDTH] & {CELL_WIDTH{compares && !is_read && second_row_t1_q}})

@@ -35,6 +35,7 @@ module dtof_pool_pixel_update `DTOF_TYPES_OF(dtof_pool_pkg) #(
     input  logic                   valid_i,        // the pixel has a timestamp
     input  logic [         NP-1:0] timestamp_i,    // timestamp that the pixel uses
     input  logic [     LABELS-1:0] hits_i,         // candidates that the timestamp hits
+    input  logic                   thinned_i,      // the timestamp counts for no label
     input  logic [ CELL_WIDTH-1:0] leader_cell_i,  // cell of the candidate that the word refers to as leader
     input  logic [PIXEL_WIDTH-1:0] word_i,
     // clock 1
@@ -58,6 +59,7 @@ module dtof_pool_pixel_update `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic [LABELS-1:0] hits_q;
   logic [SCORE_BITS-1:0] leader_score, leader_score_q;
   logic [PIXEL_WIDTH-1:0] word_q;
+  logic thinned_q;
 
   dtof_pixel_distance #(
       .LABELS         (LABELS),
@@ -97,7 +99,8 @@ module dtof_pool_pixel_update `DTOF_TYPES_OF(dtof_pool_pkg) #(
     if (valid_i) begin
       distance_q <= distance;
       leader_score_q <= leader_score;
-      hits_q <= hits_i;
+      hits_q <= hits_i & {LABELS{!thinned_i}};
+      thinned_q <= thinned_i;
       word_q <= word_i;
     end
   end
@@ -116,8 +119,8 @@ module dtof_pool_pixel_update `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .word_i        (word_q[TRACK_WIDTH-1:0]),
       .leader_score_i(leader_score_q),
       .hits_i        (hits_q),
-      .offset_up_i   (distance_q.offset_up),
-      .offset_down_i (distance_q.offset_down),
+      .offset_up_i   (distance_q.offset_up && !thinned_q),
+      .offset_down_i (distance_q.offset_down && !thinned_q),
       .changed_o     (track_changes),
       .word_o        (tracked)
   );
@@ -138,6 +141,7 @@ module dtof_pool_pixel_update `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .rival_hit_i  (distance_q.rival_hit),
       .rival_up_i   (distance_q.rival_up),
       .rival_down_i (distance_q.rival_down),
+      .thinned_i    (thinned_q),
       .acquisition_i(acquisition_i),
       .changed_o    (point_changes),
       .word_o       (pointed)

@@ -139,7 +139,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   // Control, once per array.
 
   logic stream, coarse, point, more, acq_done, stream_idle, clear;
-  logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1;
+  logic [dtof_pkg::POOL_ACQUISITION_WIDTH-1:0] acquisition_t1;
   logic decode, choose, decide, engine_done, underrun, illegal_schedule;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
   logic [ACQ_WIDTH-1:0] acq_num;
@@ -178,6 +178,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic beat_t1, first_slot_t1, odd_t1, second_row_t0, first_row_t2, second_row_t2, last_slot_t1;
   logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
+  logic [dtof_pkg::POOL_THINNING_WIDTH-1:0] thinning_t2;
   logic [PART_WIDTH-1:0] part;
   logic sweep, make_room, groups;
 
@@ -235,6 +236,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .acquisition_t2_o (acquisition_t2),
+      .thinning_t2_o    (thinning_t2),
       .keep_first_o     (keep_first),
       .keep_last_o      (keep_last),
       .load_o           (load),
@@ -398,7 +400,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign last_has_right = (engine_column != STEP_WIDTH'(command.decoding ? (LAST_COLUMNS - 1) / 2 * 2 : LAST_COLUMNS - 1));
 
   localparam int SENT_WIDTH = 2 * NP + 4 + ADDR_WIDTH + dtof_pkg::POOL_COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 27
-      + dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH + dtof_pkg::POOL_TEMPLATE_WIDTH + 1;
+      + dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH + dtof_pkg::POOL_TEMPLATE_WIDTH + dtof_pkg::POOL_THINNING_WIDTH + 1;
 
   // All commands of a clock.
   typedef struct packed {
@@ -418,6 +420,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     logic first_row_t2;
     logic second_row_t2;
     logic [3:0] acquisition_t2;
+    logic [dtof_pkg::POOL_THINNING_WIDTH-1:0] thinning_t2;
     logic keep_first;
     logic keep_last;
     logic load;
@@ -461,6 +464,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign sent.first_row_t2 = first_row_t2;
   assign sent.second_row_t2 = second_row_t2;
   assign sent.acquisition_t2 = acquisition_t2;
+  assign sent.thinning_t2 = thinning_t2;
   assign sent.keep_first = keep_first;
   assign sent.keep_last = keep_last;
   assign sent.load = load;
@@ -583,6 +587,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .first_row_t2_i  (received.first_row_t2),
           .second_row_t2_i (received.second_row_t2),
           .acquisition_t2_i(received.acquisition_t2),
+          .thinning_t2_i   (received.thinning_t2),
           .keep_first_i    (received.keep_first),
           .keep_last_i     (received.keep_last),
           .load_i          (received.load),

@@ -5,8 +5,8 @@
 //
 // Equations (docs/reference/poolpointer.md, Choose and Decide): c is the position in a row; x, y and z are the positions in the rows
 // above and below and in the column to the left. The new position is c + ((|x - c| <= T ? x - c : 0) + (|y - c| <= T ? y - c : 0)
-// + (|z - c| <= T ? z - c : 0)) / 4, rounded towards zero. T is 1024 in dark groups, 1536 in bright groups, and 2048 with
-// CELL_SHIFT = 10. The result is the new position minus half a bin, limited to the range of code and fraction.
+// + (|z - c| <= T ? z - c : 0)) / 4, rounded towards zero. T is 1536 in bright groups if the margin is below 64, otherwise 1024; with
+// CELL_SHIFT = 10 T is always 2048. The result is the new position minus half a bin, limited to the range of code and fraction.
 //
 // 1. take_position_i shifts a column's positions through three registers (above, centre, below), from the first row to the last;
 //    after the last row one shift without a position follows. The row in the centre is the one that moves.
@@ -60,6 +60,11 @@ module dtof_smoothing #(
   localparam logic signed [17:0] HALF_BIN = 18'((1 << F) / 2);
   localparam logic signed [17:0] LAST_POSITION = 18'(65536 - (1 << F) - 1);
 
+  // A winner with such a margin lies on its pulse, so a small T suffices. A start's margin is below 64.
+  localparam int SETTLED_BIT = 6;
+  logic settled;
+  assign settled = (margin_i >> SETTLED_BIT) != '0;
+
   logic above_valid_q, centre_valid_q, below_valid_q, centre_bright_q, below_bright_q;
   logic [15:0] above_q, centre_q, below_q, centre_left_q, below_left_q;
   logic [CONFIDENCE_WIDTH-1:0] centre_margin_q, below_margin_q;
@@ -84,7 +89,7 @@ module dtof_smoothing #(
       centre_left_q <= left_position_i;
       below_left_q <= left_i;
       {centre_margin_q, centre_bright_q} <= {below_margin_q, below_bright_q};
-      {below_margin_q, below_bright_q} <= {margin_i, bright_i};
+      {below_margin_q, below_bright_q} <= {margin_i, bright_i && !settled};
     end
   end
 

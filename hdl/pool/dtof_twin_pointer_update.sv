@@ -4,7 +4,7 @@
 // Equation (docs/reference/poolpointer.md, Point): if the timestamp is in reach, the pointer moves towards it by
 // (2^gear weight + dither) >> 2 units of 2^-11 coarse bin, rounded down to the pointer's unit u = 2^POINTER_SHIFT;
 // dither = (a mod 4) u + (a >> 2) mod u, with a the number of the acquisition. A hit of the leader raises the advantage n. A hit of
-// the rival lowers n; at n = 0 leader and rival change roles instead.
+// the rival lowers n; at n = 0 leader and rival change roles instead. A thinned timestamp neither raises nor lowers n.
 // RIVAL_MOVES = 1: both pointers are absolute, and the rival's pointer follows its hits in cells, quarters of a coarse bin.
 // RIVAL_MOVES = 0: the pointer is relative to candidate a, the rival is candidate b.
 // changed_o is also high for a move that saturates.
@@ -31,6 +31,7 @@ module dtof_twin_pointer_update #(
     input  logic                   rival_hit_i,
     input  logic                   rival_up_i,
     input  logic                   rival_down_i,
+    input  logic                   thinned_i,      // the timestamp moves the pointers, but n does not count it
     input  logic [            3:0] acquisition_i,  // number of the acquisition, mod 16
     output logic                   changed_o,      // low: word_o equals the word; also low without update_i
     output logic [POINT_WIDTH-1:0] word_o          // 0 without update_i
@@ -109,8 +110,8 @@ module dtof_twin_pointer_update #(
       product = PRODUCT_WIDTH'(weight_i) << gear_i;
 
       // In the upper half of the range only every 4th, then every 16th acquisition counts.
-      counted = (advantage < HALF_ADVANTAGE)
-          || (fourth && (advantage < HALF_ADVANTAGE + HALF_ADVANTAGE / 2 || sixteenth));
+      counted = !thinned_i && (advantage < HALF_ADVANTAGE
+          || (fourth && (advantage < HALF_ADVANTAGE + HALF_ADVANTAGE / 2 || sixteenth)));
       swap = rival_hit_i && (advantage == '0);
 
       // Step of n: 1, 0 or -1. A change of roles happens at n = 0 and sets n to 1. Leader and rival are never hit together.

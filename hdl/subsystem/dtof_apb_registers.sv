@@ -49,7 +49,7 @@ module dtof_apb_registers #(
     parameter int RIVAL_MOVES = 1,
     parameter int ENGINE_COLUMNS = 34,
     parameter int COARSE_SHARE = 14,
-    parameter int TRACK_SHARE = 20,
+    parameter int TRACK_SHARE = 30,
     parameter int BUFFER_LINES = 324,
     parameter int MOST_RELEASE = 320
 ) (

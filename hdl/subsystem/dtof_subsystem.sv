@@ -97,7 +97,7 @@ module dtof_subsystem #(
     // 64ths of a frame that the coarse phase is recommended to take
     parameter int COARSE_SHARE = 14,
     // 64ths of a frame that the track phase is recommended to take
-    parameter int TRACK_SHARE = 20,
+    parameter int TRACK_SHARE = 30,
     // verilator lint_on UNUSEDPARAM
     // end of parameters of the arrays
     parameter int CLOCK_WAITS = 1,   // 1: the array's clock stops until a late line arrives, which needs a working clock gate; 0: the clock runs on

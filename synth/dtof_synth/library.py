@@ -120,12 +120,12 @@ def _internal_clock_energy(pin: Group) -> float:
 
 def _drives(cells: list[Group]) -> list[list[str]]:
     """Groups of cells whose names differ in the last number only: in all libraries here it is the drive."""
-    families: dict[tuple, list[tuple[float, str]]] = {}
+    families: dict[tuple, set[tuple[float, str]]] = {}
     for cell in cells:
         stem = re.fullmatch(r"(.*?)\d+", cell.name)
         pins = tuple(sorted((pin.name, pin.get("direction"), _function(pin)) for pin in cell.children("pin")))
         if stem and pins:
-            families.setdefault((stem.group(1), pins), []).append((cell.number("area"), cell.name))
+            families.setdefault((stem.group(1), pins), set()).add((cell.number("area"), cell.name))
     return [[name for _, name in sorted(family)] for family in families.values() if len(family) > 1]
 
 

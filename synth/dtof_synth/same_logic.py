@@ -30,7 +30,6 @@ class _Reader:
     library: Library
     name_of: Callable[[str], str]
     family: Mapping[str, str]
-    column: str
 
     def _original(self, cell: str) -> str:
         """The cell of which this cell is a copy, or the cell itself."""
@@ -83,11 +82,10 @@ def of(design: dict, library: Library, called: Mapping[str, Mapping[str, str]] |
     """Logic of a design. `called`: names of each module's cells when they were mapped, if they have changed. FlowError if a copy of a
     register differs from its original."""
     family = {kind: kinds[0] for kinds in library.drives for kind in kinds}
-    column = netlist.column_module(design)
     logic: Logic = {}
     for name, module in netlist.modules(design).items():
         if module["cells"]:
-            logic[name] = _Reader(module, library, _called((called or {}).get(name, {})), family, column).read()
+            logic[name] = _Reader(module, library, _called((called or {}).get(name, {})), family).read()
     return logic
 
 

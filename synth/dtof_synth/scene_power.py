@@ -157,6 +157,7 @@ def count_activity(design: dict, case: simulation.Case, technology: Technology, 
         if process.poll() is None and not counted:
             process.kill()
         reader.join()
+        output.close()
         process.wait()
         pipe.unlink(missing_ok=True)
     simulation.outcome(said[0], case, 0.0)

@@ -74,7 +74,7 @@ module subsystem_testbench #(
     // 64ths of a frame that the coarse phase is recommended to take
     parameter int COARSE_SHARE = 14,
     // 64ths of a frame that the track phase is recommended to take
-    parameter int TRACK_SHARE = 20,
+    parameter int TRACK_SHARE = 30,
     // verilator lint_on UNUSEDPARAM
     // end of parameters of the arrays
     parameter CLOCK_WAITS = 1,

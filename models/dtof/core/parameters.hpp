@@ -42,7 +42,7 @@ struct PoolPointerParameters {
   /// PRIOR: the array keeps the candidates that a frame used, as a prior for the next frame.
   bool prior = false;
   int coarse_share = 14;  ///< COARSE_SHARE: length of the coarse phase, 64ths of the frame
-  int track_share = 20;   ///< TRACK_SHARE: length of the track phase, 64ths of the frame
+  int track_share = 30;   ///< TRACK_SHARE: length of the track phase, 64ths of the frame
   /// ENGINE_COLUMNS: columns that share an engine and use each other's results; even.
   int engine_columns = 34;
   bool smooth = true;              ///< smoothing S1 is on

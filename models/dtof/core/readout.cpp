@@ -139,11 +139,8 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (readout == Readout::kPoolPointerLean && parameter == "ENGINE_COLUMNS") {
     return 50;
   }
-  if (readout == Readout::kPoolPointerLean && parameter == "COARSE_SHARE") {
-    return 10;
-  }
   if (readout == Readout::kPoolPointerLean && parameter == "TRACK_SHARE") {
-    return 14;
+    return 20;
   }
   if (parameter == "NP") {
     return 10;
@@ -233,7 +230,7 @@ int default_value(Readout readout, std::string_view parameter, int np) {
     return 14;
   }
   if (parameter == "TRACK_SHARE") {
-    return 20;
+    return 30;
   }
   throw std::logic_error("no parameter of this name");
 }

@@ -114,6 +114,17 @@ std::int32_t centre_cell(const PairSums& sums, std::size_t peak) {
   return 4 * (static_cast<std::int32_t>(peak) + 1) + shift;
 }
 
+bool thinned(std::int32_t position, std::uint32_t acquisition) {
+  if (((acquisition >> 4U) & 3U) != 0) {
+    return false;
+  }
+  // Bits 6 to 8 in reverse order, which spreads the levels over short frames.
+  const std::uint32_t level =
+      ((acquisition >> 4U) & 4U) | ((acquisition >> 6U) & 2U) | ((acquisition >> 8U) & 1U);
+  constexpr unsigned kEighth = 13;
+  return level < 7 - (static_cast<std::uint32_t>(position) >> kEighth);
+}
+
 void move_offset(PoolTracks& word, const PoolGroup& group, std::int32_t position, int step, int offset_bits) {
   const std::int32_t distance =
       in_cells(position - group.centre(word.leader) - word.offset * kUnitsPerOffset);
@@ -210,7 +221,7 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
   }
   const int full = 1 << parameters.count_bits;
   const std::uint32_t skip = before.advantage < full / 2 ? 0U : before.advantage < full * 3 / 4 ? 3U : 15U;
-  const bool counted = (acquisition & skip) == 0;
+  const bool counted = (acquisition & skip) == 0 && !thinned(position, acquisition);
   if (hit) {
     word.advantage = std::min(before.advantage + (counted ? 1 : 0), full - 1);
   } else if (rival_hit && before.advantage == 0) {

@@ -27,6 +27,7 @@ inline constexpr std::int32_t kHitCells = 5;    // a timestamp within this dista
 inline constexpr std::int32_t kReachCells = 8;  // timestamps beyond this distance do not move the pointer
 inline constexpr std::int32_t kUnitsPerOffset = kUnitsPerCoarseBin / 32;
 inline constexpr std::int32_t kPoolPositions = 1 << 16;
+inline constexpr int kThinnedFrom = 4;  // background B of a group from which its scores are thinned
 
 using CoarseHistogram = std::array<std::uint16_t, kCoarseBins>;
 
@@ -95,6 +96,11 @@ void take_pairs(TakenPairs& taken, std::size_t peak);
 /// Subtracts `excess` from the sums two pairs below and two pairs above the peak, into which its pulse leaks.
 void take_leakage(PairSums& sums, std::size_t peak, int excess);
 std::int32_t centre_cell(const PairSums& sums, std::size_t peak);
+
+/// True if the timestamp at `position` is thinned in this acquisition: it counts for no label. Pile-up leaves
+/// more background in the early part of the range. In the first eighth 7 of 32 acquisitions are thinned, in
+/// each later eighth one less, so that an early label gains nothing from this background.
+bool thinned(std::int32_t position, std::uint32_t acquisition);
 
 /// Moves the leader's offset by `step` towards the timestamp at `position`.
 void move_offset(PoolTracks& word, const PoolGroup& group, std::int32_t position, int step, int offset_bits);

@@ -19,6 +19,7 @@ namespace {
 constexpr std::int32_t kCellsPerCoarseBin = kUnitsPerCoarseBin / kUnitsPerCell;
 constexpr std::size_t kPairColumns = 2;  // columns that share a group
 constexpr int kSmoothShift = 2;          // S1 moves by a quarter
+constexpr int kSettledMargin = 64;       // from this margin on, the T of dark groups suffices
 constexpr std::int32_t kNoOpinion = 0;   // no candidate has this cell
 
 void require_range(const char* name, int value, int lowest, int highest) {
@@ -35,9 +36,7 @@ class Groups {
          const PoolNumbers& parameters, const PoolPrior& prior)
       : parameters_(parameters),
         rows_(static_cast<std::size_t>(parameters.group_rows)),
-        offset_(significance_offset(acquisitions)),
-        significance_bits_(parameters.common().significance_bits()),
-        lost_bits_(kPoolBackgroundBits - parameters.common().background_bits()) {
+        acquisitions_(acquisitions) {
     const std::size_t pairs = (columns.size() + kPairColumns - 1) / kPairColumns;
     height_ = (columns.front().size() + rows_ - 1) / rows_;
     histograms_.resize(pairs * height_);
@@ -70,100 +69,34 @@ class Groups {
  private:
   [[nodiscard]] std::size_t index(std::size_t pair, std::size_t g) const { return pair * height_ + g; }
 
-  /// The coarse histogram of group `g` of a pair after the coarse phase. Each kSweepPeriod acquisitions,
-  /// which end with a sweep, are counted apart, for the order of the counts between two sweeps changes
-  /// nothing.
   [[nodiscard]] CoarseHistogram count(std::span<const PoolColumn> columns, std::size_t pair, std::size_t g,
                                       std::uint32_t coarse_end) const {
-    std::vector<CoarseHistogram> periods((coarse_end + kSweepPeriod - 1) / kSweepPeriod);
-    for (std::size_t number = kPairColumns * pair;
-         number < std::min(columns.size(), kPairColumns * (pair + 1)); ++number) {
-      const PoolColumn& column = columns[number];
-      const auto coarse = [&](std::size_t row) {
-        const std::span<const PoolEvent> events =
-            row < column.size() ? std::span<const PoolEvent>(column[row]) : std::span<const PoolEvent>();
-        const auto end = std::ranges::partition_point(
-            events, [&](const PoolEvent& event) { return event.acquisition < coarse_end; });
-        return events.first(static_cast<std::size_t>(end - events.begin()));
-      };
-      for (std::size_t row = g * rows_; row < std::min(column.size(), (g + 1) * rows_); row += 2) {
-        count_one_of_two_rows(coarse(row), coarse(row + 1), [&](const PoolEvent& event) {
-          if (event.acquisition % kSweepPeriod != kSweepPeriod - 1) {
-            ++periods[event.acquisition / kSweepPeriod][event.preferred / kUnitsPerCoarseBin];
-          }
-        });
-      }
-    }
-    CoarseHistogram histogram{};
-    bool frozen = false;
-    for (std::size_t period = 0; period < periods.size() && !frozen; ++period) {
-      const bool ends_with_sweep = (period + 1) * kSweepPeriod <= coarse_end;
-      frozen = !count_period(histogram, periods[period], ends_with_sweep, parameters_.count_width);
-    }
-    return histogram;
+    const std::size_t first = kPairColumns * pair;
+    return group_histogram(columns.subspan(first, std::min(kPairColumns, columns.size() - first)), g * rows_,
+                           rows_, coarse_end, coarse_end, parameters_.count_width);
   }
 
   [[nodiscard]] PoolGroup decode(std::size_t pair, std::size_t g, std::size_t pairs,
                                  const UsedCells& used) const {
-    const CoarseHistogram& own = histograms_[index(pair, g)];
-    // A group without a neighbour on a side takes itself.
-    const std::array<const CoarseHistogram*, 4> neighbours = {
-        &histograms_[index(pair, g > 0 ? g - 1 : g)], &histograms_[index(pair, g + 1 < height_ ? g + 1 : g)],
-        &histograms_[index(pair > 0 ? pair - 1 : pair, g)],
-        &histograms_[index(pair + 1 < pairs ? pair + 1 : pair, g)]};
-    const int missing =
-        (g > 0 ? 0 : 1) + (g + 1 < height_ ? 0 : 1) + (pair > 0 ? 0 : 1) + (pair + 1 < pairs ? 0 : 1);
-    const int unit = pool_template_unit(parameters_.count_width);
-    std::array<int, kCoarseBins> bins{};
-    for (std::size_t i = 0; i < kCoarseBins; ++i) {
-      bins[i] = parameters_.own_weight * own[i];
-      for (const CoarseHistogram* neighbour : neighbours) {
-        bins[i] += (*neighbour)[i];
-      }
-      bins[i] = std::max(bins[i] - unit * parameters_.coarse_template[i], 0);
-    }
-    PairSums sums{};
-    TakenPairs raised{};
-    for (std::size_t i = 0; i < kCoarsePairs; ++i) {
-      sums[i] = bins[i] + bins[i + 1];
-      const std::int32_t middle = kCellsPerCoarseBin * (static_cast<std::int32_t>(i) + 1);
-      raised[i] = std::ranges::any_of(
-          used, [&](std::int32_t cell) { return std::abs(middle - cell) <= parameters_.prior_reach; });
-      sums[i] += raised[i] ? parameters_.prior_weight : 0;
-    }
-    PoolGroup group{};
-    group.labels = parameters_.labels;
-    group.score_limit = (1 << parameters_.score_bits) - 1;
-    // The group's word has no room for the lowest bits; the middle of what they can be stands for them.
-    group.background = ((group_background(own, parameters_.count_width) >> lost_bits_) << lost_bits_) +
-                       ((1 << lost_bits_) >> 1);
-    group.tilted = significance_bits_ > 0 && group_tilted(own);
-    TakenPairs taken = hidden_pairs(parameters_.coarse_template);
-    int least = std::numeric_limits<int>::max();
-    for (std::size_t i = 0; i < kCoarsePairs; ++i) {
-      least = taken[i] ? least : std::min(least, sums[i]);
-    }
-    PairSums before = sums;  // the last candidate took its leakage
-    for (int label = 0; label < group.labels; ++label) {
-      const std::size_t peak = highest_pair(sums, taken);
-      const auto k = static_cast<std::size_t>(label);
-      group.centre_cell[k] = centre_cell(sums, peak);
-      group.significance[k] = kept_significance(
-          significance(sums, before, {peak, raised[peak], missing}, parameters_.prior_weight, offset_),
-          significance_bits_);
-      before = sums;
-      take_leakage(sums, peak, std::max(sums[peak] - least, 0) >> parameters_.leak_shift);
-      take_pairs(taken, peak);
-    }
-    return group;
+    const auto at = [&](bool exists, std::size_t p, std::size_t row) {
+      return &histograms_[exists ? index(p, row) : index(pair, g)];
+    };
+    const bool above = g > 0;
+    const bool below = g + 1 < height_;
+    const bool left = pair > 0;
+    const bool right = pair + 1 < pairs;
+    const int missing = (above ? 0 : 1) + (below ? 0 : 1) + (left ? 0 : 1) + (right ? 0 : 1);
+    return decode_group({.own = &histograms_[index(pair, g)],
+                         .neighbours = {at(above, pair, g - 1), at(below, pair, g + 1), at(left, pair - 1, g),
+                                        at(right, pair + 1, g)},
+                         .missing = missing},
+                        used, acquisitions_, parameters_);
   }
 
   const PoolNumbers& parameters_;
-  std::size_t rows_;       // of a group
-  int offset_;             // of a significance
-  int significance_bits_;  // of one that are kept
-  int lost_bits_;          // of a background
-  std::size_t height_;     // groups of a pair
+  std::size_t rows_;  // of a group
+  std::uint32_t acquisitions_;
+  std::size_t height_;  // groups of a pair
   std::vector<CoarseHistogram> histograms_;
   std::vector<PoolGroup> groups_;
 };
@@ -178,18 +111,6 @@ bool near_a_candidate(std::int32_t position, const PoolGroup& group, const PoolN
   return std::any_of(
       group.centre_cell.begin(), group.centre_cell.begin() + group.labels,
       [&](std::int32_t cell) { return within(in_cells(position) - cell, parameters.track_reach); });
-}
-
-void track(PoolTracks& word, const PoolGroup& group, const PoolEvent& event, const PoolNumbers& parameters) {
-  const std::int32_t position =
-      better_of_two(event, [&](std::int32_t x) { return near_a_candidate(x, group, parameters); });
-  const bool leads = parameters.offset_bits > 0;
-  if (leads) {
-    const int score = word.score[static_cast<std::size_t>(word.leader)];
-    const int step = score < parameters.offset_gear[0] ? 4 : score < parameters.offset_gear[1] ? 2 : 1;
-    move_offset(word, group, event.preferred, step, parameters.offset_bits);
-  }
-  score_candidate(word, group, position, parameters.track_reach, leads);
 }
 
 void point(PoolPointerWord& word, const PoolGroup& group, const PoolEvent& event,
@@ -378,7 +299,8 @@ PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column
 template <typename Visit>
 void for_each_near_neighbour(std::span<const PoolWinner> winners, std::span<const PoolWinner> left,
                              std::size_t row, const PoolNumbers& parameters, const Visit& visit) {
-  const bool bright = winners[row].background >= parameters.smooth_bright_from;
+  const bool bright = winners[row].background >= parameters.smooth_bright_from &&
+                      std::abs(winners[row].margin) < kSettledMargin;
   const int reach = parameters.smooth_reach[bright ? 1 : 0];
   const auto visit_near = [&](const PoolWinner& neighbour) {
     if (std::abs(neighbour.position - winners[row].position) <= reach) {
@@ -420,6 +342,103 @@ void PoolNumbers::validate() const {
   require_range("RIVAL_MOVES", rival_moves, 0, 1);
   require_range("LEFT_NEEDS_MARGIN", left_needs_margin, 0, 1);
   common().validate(count_width);
+}
+
+CoarseHistogram group_histogram(std::span<const PoolColumn> columns, std::size_t first, std::size_t rows,
+                                std::uint32_t until, std::uint32_t coarse_end, int count_width) {
+  // Each kSweepPeriod acquisitions, which end with a sweep, are counted apart, for the order of the counts
+  // between two sweeps changes nothing.
+  std::vector<CoarseHistogram> periods((coarse_end + kSweepPeriod - 1) / kSweepPeriod);
+  for (const PoolColumn& column : columns) {
+    const auto coarse = [&](std::size_t row) {
+      const std::span<const PoolEvent> events =
+          row < column.size() ? std::span<const PoolEvent>(column[row]) : std::span<const PoolEvent>();
+      const auto end = std::ranges::partition_point(
+          events, [&](const PoolEvent& event) { return event.acquisition < std::min(until, coarse_end); });
+      return events.first(static_cast<std::size_t>(end - events.begin()));
+    };
+    for (std::size_t row = first; row < std::min(column.size(), first + rows); row += 2) {
+      count_one_of_two_rows(coarse(row), coarse(row + 1), [&](const PoolEvent& event) {
+        if (event.acquisition % kSweepPeriod != kSweepPeriod - 1) {
+          ++periods[event.acquisition / kSweepPeriod][event.preferred / kUnitsPerCoarseBin];
+        }
+      });
+    }
+  }
+  CoarseHistogram histogram{};
+  bool frozen = false;
+  for (std::size_t period = 0; period < periods.size() && !frozen; ++period) {
+    const bool ends_with_sweep = (period + 1) * kSweepPeriod <= coarse_end;
+    frozen = !count_period(histogram, periods[period], ends_with_sweep, count_width);
+  }
+  return histogram;
+}
+
+PoolGroup decode_group(const GroupHistograms& histograms, const UsedCells& used, std::uint32_t acquisitions,
+                       const PoolNumbers& parameters) {
+  const CoarseHistogram& own = *histograms.own;
+  const int significance_bits = parameters.common().significance_bits();
+  const int lost_bits = kPoolBackgroundBits - parameters.common().background_bits();
+  const int offset = significance_offset(acquisitions);
+  const int unit = pool_template_unit(parameters.count_width);
+  std::array<int, kCoarseBins> bins{};
+  for (std::size_t i = 0; i < kCoarseBins; ++i) {
+    bins[i] = parameters.own_weight * own[i];
+    for (const CoarseHistogram* neighbour : histograms.neighbours) {
+      bins[i] += (*neighbour)[i];
+    }
+    bins[i] = std::max(bins[i] - unit * parameters.coarse_template[i], 0);
+  }
+  PairSums sums{};
+  TakenPairs raised{};
+  for (std::size_t i = 0; i < kCoarsePairs; ++i) {
+    sums[i] = bins[i] + bins[i + 1];
+    const std::int32_t middle = kCellsPerCoarseBin * (static_cast<std::int32_t>(i) + 1);
+    raised[i] = std::ranges::any_of(
+        used, [&](std::int32_t cell) { return std::abs(middle - cell) <= parameters.prior_reach; });
+    sums[i] += raised[i] ? parameters.prior_weight : 0;
+  }
+  PoolGroup group{};
+  group.labels = parameters.labels;
+  group.score_limit = (1 << parameters.score_bits) - 1;
+  // The group's word has no room for the lowest bits; the middle of what they can be stands for them.
+  group.background =
+      ((group_background(own, parameters.count_width) >> lost_bits) << lost_bits) + ((1 << lost_bits) >> 1);
+  group.tilted = significance_bits > 0 && group_tilted(own);
+  TakenPairs taken = hidden_pairs(parameters.coarse_template);
+  int least = std::numeric_limits<int>::max();
+  for (std::size_t i = 0; i < kCoarsePairs; ++i) {
+    least = taken[i] ? least : std::min(least, sums[i]);
+  }
+  PairSums before = sums;  // the last candidate took its leakage
+  for (int label = 0; label < group.labels; ++label) {
+    const std::size_t peak = highest_pair(sums, taken);
+    const auto k = static_cast<std::size_t>(label);
+    group.centre_cell[k] = centre_cell(sums, peak);
+    group.significance[k] = kept_significance(
+        significance(sums, before, {peak, raised[peak], histograms.missing}, parameters.prior_weight, offset),
+        significance_bits);
+    before = sums;
+    take_leakage(sums, peak, std::max(sums[peak] - least, 0) >> parameters.leak_shift);
+    take_pairs(taken, peak);
+  }
+  return group;
+}
+
+void track_event(PoolTracks& word, const PoolGroup& group, const PoolEvent& event,
+                 const PoolNumbers& parameters) {
+  if (group.background >= kThinnedFrom && thinned(event.preferred, event.acquisition)) {
+    return;
+  }
+  const std::int32_t position =
+      better_of_two(event, [&](std::int32_t x) { return near_a_candidate(x, group, parameters); });
+  const bool leads = parameters.offset_bits > 0;
+  if (leads) {
+    const int score = word.score[static_cast<std::size_t>(word.leader)];
+    const int step = score < parameters.offset_gear[0] ? 4 : score < parameters.offset_gear[1] ? 2 : 1;
+    move_offset(word, group, event.preferred, step, parameters.offset_bits);
+  }
+  score_candidate(word, group, position, parameters.track_reach, leads);
 }
 
 PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t acquisitions) {
@@ -467,7 +486,7 @@ std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::u
     for (std::size_t row = 0; row < columns[column].size(); ++row) {
       for (const PoolEvent& event : columns[column][row]) {
         if (event.acquisition >= coarse_end && event.acquisition < track_end) {
-          track(tracks[column][row], groups.at(column, row), event, parameters);
+          track_event(tracks[column][row], groups.at(column, row), event, parameters);
         }
       }
     }

@@ -40,7 +40,7 @@ struct PoolNumbers {
   int cell_shift = 9;       ///< cells around a settled pointer have 2^cell_shift units
   int engine_columns = 34;  ///< columns that share an engine; even
   int coarse_share = 14;    ///< 64ths of the frame: coarse phase
-  int track_share = 20;     ///< 64ths of the frame: track phase
+  int track_share = 30;     ///< 64ths of the frame: track phase
 
   int own_weight = 3;  ///< weight of a group's own histogram relative to its four neighbours'
   /// 2^-leak_shift of a candidate's height above the floor leaks into the pairs two further on.
@@ -102,6 +102,30 @@ using PoolColumn = std::vector<std::vector<PoolEvent>>;
 /// the largest code or an acquisition outside the frame.
 PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t acquisitions);
 
+/// Cells of the candidates that pixels of a group chose. A group word can keep them for the next frame, with
+/// one flag per candidate.
+using UsedCells = std::vector<std::int32_t>;
+
+/// Coarse histogram of a group of one or two columns after the coarse phase: of `rows` rows from `first` on.
+/// Only events before acquisition `until` count. `coarse_end` ends the phase.
+CoarseHistogram group_histogram(std::span<const PoolColumn> columns, std::size_t first, std::size_t rows,
+                                std::uint32_t until, std::uint32_t coarse_end, int count_width);
+
+/// A group's own histogram and those of its neighbours above, below, to the left and to the right. The
+/// group's own histogram replaces each of the `missing` neighbours.
+struct GroupHistograms {
+  const CoarseHistogram* own;
+  std::array<const CoarseHistogram*, 4> neighbours;
+  int missing;
+};
+/// Decode: the group word. `used`: cells of the last frame's candidates. `acquisitions`: of the frame.
+PoolGroup decode_group(const GroupHistograms& histograms, const UsedCells& used, std::uint32_t acquisitions,
+                       const PoolNumbers& parameters);
+
+/// Track: updates a pixel's track word by its timestamps of one acquisition.
+void track_event(PoolTracks& word, const PoolGroup& group, const PoolEvent& event,
+                 const PoolNumbers& parameters);
+
 /// Result of a pixel after decide, before S1; or after choose, before its pointer starts.
 struct PoolWinner {
   std::int32_t position;  ///< units
@@ -113,9 +137,6 @@ struct PoolWinner {
 };
 using PoolWinners = std::vector<PoolWinner>;
 
-/// Cells of the candidates that pixels of a group chose. A group word can keep them for the next frame, with
-/// one flag per candidate.
-using UsedCells = std::vector<std::int32_t>;
 /// Used cells of an engine's groups, by pair of columns, each from row 0 down. Empty before the first frame.
 using PoolPrior = std::vector<UsedCells>;
 

@@ -40,7 +40,7 @@ TEST(ParameterDefaults, AreThoseOfTheRtl) {
   EXPECT_EQ(pool.pointer_shift, 1);
   EXPECT_TRUE(pool.rival_moves);
   EXPECT_EQ(pool.coarse_share, 14);
-  EXPECT_EQ(pool.track_share, 20);
+  EXPECT_EQ(pool.track_share, 30);
 }
 
 TEST(ReadoutNames, RoundTripAndUnique) {

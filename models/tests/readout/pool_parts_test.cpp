@@ -57,6 +57,32 @@ TEST(CountPeriod, TheQuarterFollowsTheWidth) {
   EXPECT_EQ(histogram, filled(11));
 }
 
+TEST(Thinned, OfThirtyTwoAcquisitionsSevenInTheFirstEighthAndNoneInTheLast) {
+  for (int eighth = 0; eighth < 8; ++eighth) {
+    for (const std::int32_t position : {8192 * eighth, 8192 * eighth + 8191}) {
+      int count = 0;
+      for (std::uint32_t acquisition = 1024; acquisition < 1536; ++acquisition) {
+        count += thinned(position, acquisition) ? 1 : 0;
+      }
+      EXPECT_EQ(count, 16 * (7 - eighth)) << position;
+    }
+  }
+}
+
+TEST(Thinned, LevelsTakeTurns) {
+  // The first acquisitions of each 64: with reversed bits, levels are far apart.
+  const std::vector<int> levels = {0, 4, 2, 6, 1, 5, 3, 7};
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    for (int eighth = 0; eighth < 8; ++eighth) {
+      const bool expected = levels[i] + eighth < 7;
+      EXPECT_EQ(thinned(8192 * eighth, 64 * i), expected);
+      EXPECT_EQ(thinned(8192 * eighth, 64 * i + 15), expected);
+      EXPECT_FALSE(thinned(8192 * eighth, 64 * i + 16));
+      EXPECT_FALSE(thinned(8192 * eighth, 64 * i + 63));
+    }
+  }
+}
+
 TEST(ChainBeliefs, NeighboursCarryAWeakPixelAndAStrongOneStays) {
   const auto node = [](int near_evidence, int far_evidence) {
     return ChainNode{2, 4, {1000, 20000}, {near_evidence, far_evidence}};

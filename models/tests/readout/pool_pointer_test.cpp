@@ -72,7 +72,7 @@ class Reference {
   /// What the definition leaves open.
   struct Open {
     int coarse = 14;  // 64ths
-    int track = 20;
+    int track = 30;
     bool left_needs_margin = false;
     bool smooth = true;
     bool lean = false;  ///< the numbers of poolPointer lean
@@ -311,6 +311,13 @@ class Reference {
     return open_.prior ? (z < 3 ? 0 : (z - 1) / 2) : z;
   }
 
+  /// True if a position counts for no label, because background comes early.
+  static bool thinned(int a, int x) {
+    constexpr std::array<int, 8> kLate = {0, 4, 2, 6, 1, 5, 3, 7};
+    const int sixteens = a / 16;
+    return sixteens % 4 == 0 && kLate[static_cast<std::size_t>(sixteens / 4 % 8)] + x / 8192 < 7;
+  }
+
   /// Distance from a position in whole cells, towards minus infinity.
   static int cells(int x, int from) { return floor_divide(x - from, 512); }
 
@@ -340,6 +347,9 @@ class Reference {
   }
 
   void track(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) const {
+    if (g.b > 3 && thinned(a, preferred(a, times))) {
+      return;
+    }
     const int x = take(a, times, [&](int time) { return label_of(g, time) >= 0; });
     auto& score = pixel.score;
     const auto lead = static_cast<std::size_t>(pixel.leader);
@@ -491,7 +501,8 @@ class Reference {
   /// Those above, below and to the left that are near.
   template <typename Position>
   std::vector<Place> near_places(Place place, Position position) {
-    const int reach = open_.cell == 1024 ? 2048 : group(place).b < 6 ? 1024 : 1536;
+    const bool small = group(place).b < 6 || std::abs(pixels_.at(place).margin) > 63;
+    const int reach = open_.cell == 1024 ? 2048 : small ? 1024 : 1536;
     std::vector<Place> near;
     for (const Place at : {Place{place.column, place.row - 1}, Place{place.column, place.row + 1},
                            Place{place.column - 1, place.row}}) {
@@ -540,7 +551,7 @@ class Reference {
       pixel.pa = std::clamp(distance >= 0 ? pixel.pa + move : pixel.pa - move, centre - 2048, centre + 2032);
     }
     const int every = n < 8 ? 1 : n < 12 ? 4 : 16;
-    if (a % every == 0) {
+    if (a % every == 0 && !thinned(a, x)) {
       pixel.n = hit ? std::min(15, n + 1) : rival ? n - 1 : n;
     }
   }
@@ -578,7 +589,7 @@ class Reference {
       pixel.pb += f > 0 ? 1 : -1;
     }
     const int every = n < 64 ? 1 : n < 96 ? 4 : 16;
-    if (a % every == 0) {
+    if (a % every == 0 && !thinned(a, x)) {
       pixel.n = hit ? std::min(127, n + 1) : rival ? n - 1 : n;
     }
   }
