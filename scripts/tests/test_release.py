@@ -85,10 +85,11 @@ class Archive(unittest.TestCase):
         self.assertRegex(self.tree.name, r"^dtof-readout-\d+\.\d+\.\d+$")
 
     def test_its_scripts_work_without_git(self) -> None:
-        for command in (["list_files.py", ".cpp"], ["generate.py", "--check"], ["check_names.py"], ["check_documents.py"], ["reports.py", "figures", "--check"]):
+        for command in (["list_files.py", ".cpp"], ["generate.py", "--check"], ["check_names.py"], ["check_documents.py"],
+                        ["reports.py", "figures", "--check"]):  # fmt: skip
             with self.subTest(command=command):
-                done = subprocess.run([sys.executable, "-B", self.tree / "scripts" / command[0], *command[1:]], cwd=self.tree, text=True, stdout=subprocess.PIPE,
-                                      stderr=subprocess.STDOUT, check=False)
+                done = subprocess.run([sys.executable, "-B", self.tree / "scripts" / command[0], *command[1:]], cwd=self.tree, text=True,
+                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
                 self.assertEqual(done.returncode, 0, done.stdout[-2000:])
 
 
