@@ -132,3 +132,4 @@ include scripts/example.mk
 include scripts/fpga.mk
 include scripts/sweep.mk
 include scripts/reports.mk
+include scripts/release.mk

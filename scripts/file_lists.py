@@ -25,9 +25,13 @@ SUBSYSTEM = {
 BENCH = {"ACQUISITIONS": "of the example's frame"}
 
 
+def version_in(text: str) -> str:
+    """The project's version, from the text of CMakeLists.txt."""
+    return found_in("CMakeLists.txt", r"^project\(dtof_readout VERSION (\S+)", text)[1]
+
+
 def version() -> str:
-    """The project's version, from CMakeLists.txt."""
-    return found_in("CMakeLists.txt", r"^project\(dtof_readout VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
+    return version_in((ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))
 
 
 def split(text: str) -> tuple[list[str], list[str], list[str]]:

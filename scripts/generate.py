@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the lists of read-outs, parameters and RTL files that SystemVerilog, C++, CMake, FuseSoC, Bender and docs/user/configuration.md
 need, from readouts.toml and hdl/dtof.f, and the registers of dtof_subsystem for RTL, C, others' tools and the page on integration, from
-hdl/subsystem/registers.toml, and the table of studies in docs/user/commands.md, from studies.toml. --check only says which are stale."""
+hdl/subsystem/registers.toml, and the table of studies in docs/user/commands.md, from studies.toml, and the version in the files by which
+the project is cited, from CMakeLists.txt. --check only says which are stale."""
 
 import re
 import sys
@@ -12,6 +13,7 @@ from pathlib import Path
 import file_lists
 import register_maps
 import registers
+import release
 from dtof_synth import program
 from dtof_synth.errors import FlowError
 from dtof_synth.readouts import Expression, Readout, Table, Top, evaluate, load
@@ -321,9 +323,10 @@ def main() -> int:
     try:
         table = load()
         current = {name: (ROOT / name).read_text(encoding="utf-8") for name in
-                   ("hdl/dtof.f", CONFIGURATION, INTEGRATION, COMMANDS)}
+                   ("hdl/dtof.f", CONFIGURATION, INTEGRATION, COMMANDS, release.CITATION)}
         whole = registers.load()
         listing = column_files(current["hdl/dtof.f"], table)
+        citation = release.citation(current[release.CITATION], file_lists.version())
         files = {
             "hdl/dtof.f": listing,
             "hdl/common/dtof_readouts.svh": systemverilog(table),
@@ -343,6 +346,8 @@ def main() -> int:
             **register_maps.files(whole),
             INTEGRATION: registers.page(current[INTEGRATION], whole),
             COMMANDS: studies_table(current[COMMANDS]),
+            release.CITATION: citation,
+            release.ZENODO: release.zenodo(citation),
         }
         differences = [difference for top in table.tops
                        for difference in check_top(top, (ROOT / rtl_of(top)).read_text(encoding="utf-8"), table)]

@@ -88,7 +88,7 @@ std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
     return fmt::format("{}{} `{} {}--help` lists the options", context, unknown, app.get_name(),
                        parsed.empty() ? "" : command.get_name() + " ");
   }
-  if (parsed.empty()) {
+  if (parsed.empty() && !subcommands(app).empty()) {
     return fmt::format("no command is given; known are {}; `{} --help` explains them",
                        fmt::join(command_names(app), ", "), app.get_name());
   }
@@ -139,12 +139,20 @@ std::string in_one_line(std::string text) {
 
 std::unique_ptr<CLI::App> make_command_line(const Program& program, const std::string& command_line) {
   auto app = std::make_unique<CLI::App>(program.description, program.name);
-  app->require_subcommand(1);
   add_texts(*app, program.name);
   app->footer(program.examples +
               "Exit codes: 0 done, 1 bad input, 3 RTL misbehaved or differs from its model, 4 failure, 130 "
               "interrupted.");
   program.add_commands(*app, command_line);
+  if (!subcommands(*app).empty()) {
+    app->require_subcommand(1);
+  } else {
+    CLI::Option* json = app->get_option("--json");
+    json->remove_needs(app->get_option("--version"));
+    json->description(
+        "the tables as a JSON object on standard output; what is for people goes to standard error. With "
+        "--version: the version as JSON");
+  }
   check_numbers(*app);
   return app;
 }
@@ -165,7 +173,7 @@ void run_command_line(CLI::App& app, int count, const char* const* arguments) {
       throw InputError(fmt::format("the value of {} is empty", text.substr(0, text.size() - 1)));
     }
   }
-  if (count > 1) {
+  if (count > 1 && !subcommands(app).empty()) {
     check_command_name(app, arguments[1]);
   }
   try {

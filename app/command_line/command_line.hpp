@@ -15,7 +15,8 @@ struct Program {
   std::string name;
   std::string description;  ///< first lines of --help
   std::string examples;     ///< last lines of --help, before the exit codes
-  /// Adds the subcommands; parsing the command line runs them. `command_line` is the whole command line as
+  /// Adds the subcommands, or the options of a program without subcommands; parsing the command line runs
+  /// them. `command_line` is the whole command line as
   /// typed, for reports. It must outlive the parsing.
   void (*add_commands)(CLI::App& app, const std::string& command_line);
 };

@@ -206,6 +206,11 @@ std::string bash_completion(const CLI::App& app) {
       values += fmt::format("  {}) case \"$before\" in\n{}    esac ;;\n", command.name, cases);
     }
   }
+  if (table.size() == 1) {  // a program without commands: its own options, behind any first word
+    if (const std::string cases = value_cases(table.front()); !cases.empty()) {
+      values = fmt::format("  *) case \"$before\" in\n{}    esac ;;\n", cases);
+    }
+  }
   const std::string& program = table.front().name;
   return fmt::format(
       "# Completion of {0} for bash, by `{0} --completion bash`; zsh reads it after\n"
@@ -233,11 +238,10 @@ std::string man_page(const CLI::App& app, const std::string& version) {
   const CommandText& program = table.front();
   std::string page = fmt::format(
       ".TH {} 1 \"\" \"{} {}\" \"User commands\"\n.ad l\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n\\fB{}\\fR "
-      "\\fICOMMAND\\fR "
-      "[\\fIOPTIONS\\fR]\n.SH OPTIONS\n{}",
+      "{}[\\fIOPTIONS\\fR]\n.SH OPTIONS\n{}",
       upper(program.name), program.name, version, troff(program.name), troff(program.description),
-      troff(program.name), man_options(program));
-  page += ".SH COMMANDS\n";
+      troff(program.name), table.size() > 1 ? "\\fICOMMAND\\fR " : "", man_options(program));
+  page += table.size() > 1 ? ".SH COMMANDS\n" : "";
   for (std::size_t i = 1; i < table.size(); ++i) {
     page += fmt::format(".SS {} {}\n{}\n{}", troff(program.name), troff(table[i].name),
                         troff(table[i].description), man_options(table[i]));

@@ -13,6 +13,7 @@
 
 #include "dtof/sensor/sensor_file.hpp"
 #include "playground/catalogue.hpp"
+#include "playground/phases.hpp"
 #include "playground/request.hpp"
 #include "playground/session.hpp"
 
@@ -28,6 +29,7 @@ std::vector<std::uint16_t> state;
 std::vector<dtof::PoolCandidate> candidates;
 std::string sentence;
 std::string figures;
+std::string phases;
 
 /// True if `work` succeeded; else `sentence` says why not.
 bool attempt(const std::function<void()>& work) {
@@ -156,6 +158,15 @@ const dtof::PoolCandidate* playground_candidate() {
 /// Bits of a read-out's fraction.
 int playground_fraction_bits(int readout) {
   return session->readout(static_cast<std::size_t>(readout)).fraction_bits;
+}
+/// Phases of a read-out's frame, one a line: the first acquisition after it, a tab, its name.
+const char* playground_phases(int readout) {
+  phases.clear();
+  for (const dtof::ReadoutPhase& phase :
+       dtof::readout_phases(session->readout(static_cast<std::size_t>(readout)), session->acquisitions())) {
+    phases += (phases.empty() ? "" : "\n") + std::to_string(phase.end) + "\t" + phase.name;
+  }
+  return phases.c_str();
 }
 /// The figures of summary.csv, one a line.
 const char* playground_figures() { return figures.c_str(); }

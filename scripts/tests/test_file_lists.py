@@ -2,6 +2,7 @@
 """FuseSoC, Bender and Vivado are not in Debian. What they do with their files is done here: the files that a target names are
 copied to a folder, and the target's tool reads them there."""
 
+import copy
 import re
 import shutil
 import subprocess
@@ -19,14 +20,52 @@ HDL = ROOT / "hdl"
 CORE = yaml.safe_load((ROOT / "dtof.core").read_text(encoding="utf-8").removeprefix("CAPI=2:\n"))
 BENDER = yaml.safe_load((ROOT / "Bender.yml").read_text(encoding="utf-8"))
 CONDITIONAL = re.compile(r"(!?)(\w+)\? \((.+)\)")
-# The keys that CAPI2 has at these places, as far as they are used.
-KEYS = {
-    "core": {"name", "description", "filesets", "targets", "parameters"},
-    "fileset": {"files", "file_type", "depend"},
-    "file": {"is_include_file", "include_path", "file_type"},
-    "target": {"filesets", "toplevel", "default_tool", "parameters", "tools"},
-    "parameter": {"datatype", "description", "paramtype"},
+# CAPI2 as FuseSoC's own schema has it (capi2/json_schema.py), as far as dtof.core uses it: the keys of each place with their types, the keys
+# that must be there, and the values of those that have a list.
+SCHEMA: dict[str, dict[str, type | tuple[type, ...]]] = {
+    "core": {"name": str, "description": str, "filesets": dict, "targets": dict, "parameters": dict},
+    "fileset": {"files": list, "file_type": str, "depend": list},
+    "file": {"is_include_file": bool, "include_path": str, "file_type": str},
+    "target": {"filesets": list, "toplevel": (str, list), "default_tool": str, "parameters": list, "tools": dict},
+    "parameter": {"datatype": str, "default": (bool, str, int, float), "description": str, "paramtype": str},
 }
+REQUIRED = {"core": {"name"}, "parameter": {"datatype", "paramtype"}}
+VALUES = {"datatype": {"bool", "file", "int", "real", "str"}, "paramtype": {"cmdlinearg", "generic", "plusarg", "vlogdefine", "vlogparam"}}
+
+
+def schema_errors(core: dict) -> list[str]:
+    """What FuseSoC's schema would refuse."""
+    found: list[str] = []
+
+    def check(kind: str, place: str, entry: object) -> None:
+        if not isinstance(entry, dict):
+            found.append(f"{place} is no mapping")
+            return
+        found.extend(f"{place}: no key '{key}'" for key in sorted(REQUIRED.get(kind, set()) - entry.keys()))
+        for key, value in entry.items():
+            if key not in SCHEMA[kind]:
+                found.append(f"{place}: unknown key '{key}'")
+            elif not isinstance(value, SCHEMA[kind][key]):
+                found.append(f"{place}: {key} is a {type(value).__name__}")
+            elif isinstance(value, list) and key != "files" and not all(isinstance(one, str) for one in value):
+                found.append(f"{place}: {key} has more than strings")
+            elif value not in VALUES.get(key, {value} if isinstance(value, str) else [value]):
+                found.append(f"{place}: {key} is '{value}'")
+
+    check("core", "core", core)
+    for kind in ("fileset", "target", "parameter"):
+        for name, entry in core.get(f"{kind}s", {}).items():
+            check(kind, f"{kind} {name}", entry)
+    for name, fileset in core.get("filesets", {}).items():
+        for entry in fileset.get("files", []) if isinstance(fileset, dict) else []:
+            if isinstance(entry, dict) and len(entry) == 1:
+                ((file, options),) = entry.items()
+                check("file", file, options)
+            elif not isinstance(entry, str):
+                found.append(f"fileset {name}: a file is neither a name nor one name with its options")
+    return found
+
+
 OWN_SRAMS = ["hdl/technology/fpga/dtof_sram_1rw.sv", "hdl/technology/fpga/dtof_sram_1r1w.sv", "hdl/technology/fpga/dtof_clock_gate.sv"]  # for one's own
 
 
@@ -73,15 +112,23 @@ class Target:
 
 
 class FuseSoc(unittest.TestCase):
-    def test_every_key_is_one_of_capi2(self):
-        self.assertLessEqual(CORE.keys(), KEYS["core"])
-        for kind, described in (("fileset", CORE["filesets"]), ("target", CORE["targets"]), ("parameter", CORE["parameters"])):
-            for name, entry in described.items():
-                self.assertLessEqual(entry.keys(), KEYS[kind], name)
-        for fileset in CORE["filesets"].values():
-            for entry in fileset["files"]:
-                if isinstance(entry, dict):
-                    self.assertLessEqual(next(iter(entry.values())).keys(), KEYS["file"])
+    def test_the_core_keeps_capi2s_schema(self):
+        self.assertEqual(schema_errors(CORE), [])
+
+    def test_faults_against_the_schema_are_seen(self):
+        for change, says in ((lambda core: core.pop("name"), "core: no key 'name'"),
+                             (lambda core: core.update(licence="x"), "core: unknown key 'licence'"),
+                             (lambda core: core["parameters"]["NP"].update(datatype="integer"), "parameter NP: datatype is 'integer'"),
+                             (lambda core: core["parameters"]["NP"].pop("paramtype"), "parameter NP: no key 'paramtype'"),
+                             (lambda core: core["targets"]["lint"].update(filesets="rtl"), "target lint: filesets is a str"),
+                             (lambda core: core["targets"]["lint"]["parameters"].append(5), "target lint: parameters has more than strings"),
+                             (lambda core: core["filesets"]["rtl"]["files"].append({"a": {}, "b": {}}),
+                              "fileset rtl: a file is neither a name nor one name with its options"),
+                             (lambda core: core["filesets"]["waivers"]["files"][0]["hdl/lint/verilator.vlt"].update(type="vlt"),
+                              "hdl/lint/verilator.vlt: unknown key 'type'")):  # fmt: skip
+            core = copy.deepcopy(CORE)
+            change(core)
+            self.assertEqual(schema_errors(core), [says])
 
     def test_what_a_target_names_is_there(self):
         self.assertEqual(set(CORE["targets"]), {"default", "lint", "sim", "synth"})

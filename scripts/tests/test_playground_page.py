@@ -86,6 +86,7 @@ const createModels = async () => {
     state_numbers: () => 9 << 16, fraction_bits: () => 1,
     candidates: (index, until) => { HEAP32.set([16, until, 64, 1], (10 << 16) / 4); return 1; },
     candidate_count: () => readout === 1 ? 2 : 0, candidate: () => 10 << 16,
+    phases: (index) => index === 1 ? "20\\tcoarse\\n55\\ttrack\\n100\\tpointer" : "100\\tpointer",
   });
   return { HEAPF32, HEAPU8, HEAPU16, HEAPU32, HEAP32, ccall: (name, result, types, values) => functions[name.replace("playground_", "")](...values) };
 };
@@ -272,6 +273,23 @@ class InTheBrowser(unittest.TestCase):
             self.assertRegex(self.traced(), r"^After 50 acquisitions: at 1.32 m \(code 200.5\)")
             self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
             self.browser.evaluate("document.getElementById('watch-time').value = 1000")
+
+    def test_the_phases_of_a_readout_are_marked(self) -> None:
+        named = "[...document.querySelectorAll('#trace-phases span')].map(s => [s.textContent, s.title])"
+        line = ("(c => { const alpha = c.getContext('2d').getImageData(0, 1, c.width, 1).data.filter((_, i) => i % 4 === 3);"
+                " return [...alpha.keys()].filter(i => Math.abs(alpha[i] - 128) < 3).map(i => i / c.width); })(document.getElementById('trace'))")
+        for width, height in ((390, 844), (1440, 900)):
+            self.show(width, height)
+            self.point_at("#cards article:nth-of-type(2) canvas", 6, 2)
+            self.states(64)
+            self.assertEqual(self.browser.evaluate(named), [["pointer", "pointer, ends at acquisition 100"]])
+            self.browser.evaluate("(l => { l.value = 'poolpointer'; l.dispatchEvent(new Event('input')); })(document.getElementById('trace-readout'))")
+            self.states(24)
+            self.assertEqual(self.browser.evaluate(named), [["coarse", "coarse, ends at acquisition 20"], ["track", "track, ends at acquisition 55"],
+                                                            ["pointer", "pointer, ends at acquisition 100"]])
+            places = self.browser.evaluate(line)
+            self.assertTrue(places and {round(place, 2) for place in places} <= {0.2, 0.55}, places)
+            self.browser.screenshot(SCREENSHOTS / f"playground_phases_{width}.png", whole=False)
 
     def states(self, count: int) -> list[list[float]]:
         """Acquisition and position of each step, once there are this many."""

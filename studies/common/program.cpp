@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "command_line/folder_result.hpp"
 #include "common/commands.hpp"
 
 namespace dtof {
@@ -31,6 +32,7 @@ Program study_program() {
         add_hostile_scenes_command(app, command_line);
         add_detection_command(app, command_line);
         add_enlarge_command(app, command_line);
+        add_folder_results(app, command_line);
       }};
 }
 

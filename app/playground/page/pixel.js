@@ -6,6 +6,7 @@
 const BARS = 128;
 const STEPS = 64, POOL_STEPS = 24;  // of a trace; a pool read-out reads a whole engine for each
 const CELLS = 128;  // of candidates, over the range
+const FEWEST_PIXELS = 60;  // of a phase that has its name above the trace
 const watched = { pixel: null, next: null, waiting: false, counts: [], states: [], trace: 0 };
 
 /** Asks the models for a pixel; the last one that was pointed at while they were busy comes next. */
@@ -98,6 +99,12 @@ function paintTrace() {
     });
   });
   context.globalAlpha = 1;
+  const phases = frames[tracedFrame()].phases;
+  phases.slice(0, -1).forEach(({ end }) => {
+    context.globalAlpha = 0.5;
+    rectangle(style.getPropertyValue("--text"), Math.round(x(end)) - 1, 0, 2, canvas.height);
+    context.globalAlpha = 1;
+  });
   const stairs = (colour, height, value) => watched.states.forEach((state) =>
     rectangle(colour, x(state.until - step), y(value(state) / codes) - height / 2, x(step), height));
   if (isPool()) {
@@ -108,6 +115,11 @@ function paintTrace() {
   byId("trace-ends").replaceChildren(make("span", "0"), make("span", `up: 0 to ${range.toFixed(2)} m`), make("span", `${acquisitions} acquisitions`));
   const place = (share) => `${(share * range).toFixed(2)} m`;
   const now = stateNow();
+  byId("trace-phases").replaceChildren(...phases.map(({ end, name }, i) => {
+    const share = (end - (i === 0 ? 0 : phases[i - 1].end)) / acquisitions;
+    return make("span", share * canvas.clientWidth < FEWEST_PIXELS ? "" : name, [],
+      { style: `width: ${100 * share}%`, title: `${name}, ends at acquisition ${end}` });
+  }));
   const known = !now ? "" : `After ${now.until} acquisitions: at ${place(now.position / codes)} (code ${Number(now.position.toFixed(2))}), confidence ` +
     `${now.confidence}${isPool() ? `, rival at ${place(now.rival / codes)}; candidates (score): ${now.candidates.map(({ cell, score }) =>
       `${place(cell / CELLS)} (${score})`).join(", ")}` : ""}. `;

@@ -53,7 +53,9 @@ createModels().then((models) => {
       const begin = call("results", "number") / 2;
       const results = models.HEAPU16.slice(begin, begin + 4 * pixels);
       const figures = call("figures", "string").split("\n");
-      postMessage({ what: "frame", readout, depth, error, results, figures });
+      const phases = call("phases", "string", ["number"], [index]).split("\n").map((line) => line.split("\t"))
+        .map(([end, name]) => ({ end: Number(end), name }));
+      postMessage({ what: "frame", readout, depth, error, results, figures, phases });
     });
     postMessage({ what: "done" });
   }

@@ -2,10 +2,12 @@
 // The result of every command as JSON, apart from what is for people.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "tests/io/io_test_support.hpp"
@@ -105,6 +107,39 @@ TEST_F(JsonCommand, TheListNamesWhatItPrints) {
     }
   }
   EXPECT_FALSE(object.at("hardware").empty());
+}
+
+TEST_F(JsonCommand, EveryStudyHasTheOption) {
+  const auto study = [&](const std::string& arguments) {
+    return run_shell(fmt::format("cd '{}' && {} {}", path("").string(), DTOF_STUDY_PROGRAM, arguments));
+  };
+  const std::string help = study("--help").output;
+  std::istringstream commands(help.substr(help.find("Subcommands:"), help.find("Try:") - help.find("Sub")));
+  std::size_t known = 0;
+  for (std::string line; std::getline(commands, line);) {
+    if (line.starts_with("  ") && line[2] != ' ') {
+      const std::string command = line.substr(2, line.find(' ', 2) - 2);
+      EXPECT_THAT(study(command + " --help").output, HasSubstr("--json")) << command;
+      ++known;
+    }
+  }
+  EXPECT_GE(known, 18U);
+  const Outcome outcome = study(
+      "accuracy -r sifh --distances 1 2 --frames 4 --calibration-frames 2 --acquisitions 100 --out c --json "
+      "2> said.txt");
+  ASSERT_EQ(outcome.exit_code, 0) << contents(path("said.txt"));
+  const auto object = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(object.at("command"), "accuracy");
+  EXPECT_EQ(object.at("out"), "c");
+  for (const auto& [name, rows] : object.at("tables").items()) {
+    const std::string table = contents(path("c") / name);
+    EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), rows.size() + 1);
+  }
+  const auto& accuracy = object.at("tables").at("accuracy.csv");
+  ASSERT_EQ(accuracy.size(), 2U);
+  EXPECT_EQ(accuracy[1].at("distance_m"), 2);
+  EXPECT_EQ(accuracy[1].at("readout"), "sifh");
+  EXPECT_NE(contents(path("said.txt")), "") << "what is for people is still said";
 }
 
 TEST_F(JsonCommand, ARefusalHasNoObject) {
