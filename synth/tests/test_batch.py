@@ -46,12 +46,12 @@ class Batch(unittest.TestCase):
             time.sleep(1)
             return results, len(list(Path(folder).iterdir()))
 
-    def test_after_a_failure_no_further_job_begins(self):
+    def test_after_a_failure_no_further_job_begins(self) -> None:
         results, begun = self.run_all(0)
         self.assertIsNone(results)
         self.assertLess(begun, 8)
 
-    def test_results_are_in_the_order_of_the_jobs(self):
+    def test_results_are_in_the_order_of_the_jobs(self) -> None:
         results, begun = self.run_all(12)
         self.assertEqual(list(results), [f"job{number}" for number in range(12, JOBS)])
         self.assertEqual(begun, 8)
@@ -60,7 +60,7 @@ class Batch(unittest.TestCase):
 class Kept(unittest.TestCase):
     """Results that are reused, with runs that only count themselves."""
 
-    def setUp(self):
+    def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
@@ -91,13 +91,13 @@ class Kept(unittest.TestCase):
                 mock.patch.object(batch, "as_completed", lambda futures: list(futures)):
             return batch.run_all(jobs, None, self.folder, 2, self.said.append)
 
-    def test_arrays_with_engines_start_first_and_each_end_is_shown(self):
+    def test_arrays_with_engines_start_first_and_each_end_is_shown(self) -> None:
         results = self.run_all(self.jobs)
         self.assertEqual(self.ran, ["poolpointer", "ezpointer", "hispointer"])
         self.assertEqual(results, {name: f"{name} in {name}" for name in ("ezpointer", "hispointer", "poolpointer")})
         self.assertEqual(self.said, ["[1/3] poolpointer", "[2/3] ezpointer", "[3/3] hispointer"])
 
-    def test_a_result_is_kept_until_an_input_changes(self):
+    def test_a_result_is_kept_until_an_input_changes(self) -> None:
         first = self.run_all(self.jobs[:2])
         self.assertEqual(self.run_all(self.jobs[:2]), first)
         self.assertEqual(self.ran, [])
@@ -108,13 +108,13 @@ class Kept(unittest.TestCase):
         self.run_all([replace(job, most_attempts=1) for job in self.jobs], "other inputs")
         self.assertEqual(len(self.ran), 3)
 
-    def test_a_damaged_result_is_computed_anew(self):
+    def test_a_damaged_result_is_computed_anew(self) -> None:
         self.run_all(self.jobs[:1])
         (self.folder / "ezpointer" / "result.pickle").write_bytes(b"no pickle")
         self.run_all(self.jobs[:1])
         self.assertEqual(self.ran, ["ezpointer"])
 
-    def test_each_input_has_its_key_and_the_order_of_parameters_has_none(self):
+    def test_each_input_has_its_key_and_the_order_of_parameters_has_none(self) -> None:
         job = self.jobs[0]
         others = [job, replace(job, corners=("slow",)), replace(job, most_attempts=1), replace(job, naming=1), self.jobs[1]]
         keys = {batch._key(one, digest) for one in others for digest in ("a", "b")}

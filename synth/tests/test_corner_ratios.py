@@ -14,11 +14,11 @@ from .small_results import ROOT
 
 
 class Ratios(unittest.TestCase):
-    def test_the_ratios_are_those_of_their_sources(self):
+    def test_the_ratios_are_those_of_their_sources(self) -> None:
         self.assertAlmostEqual(corner_ratios.GATES, 81 / 25.8)
         self.assertAlmostEqual(corner_ratios.SRAMS, 2.2 / 1.2)
 
-    def test_registers_follow_the_gates(self):
+    def test_registers_follow_the_gates(self) -> None:
         slow = standard_cells.SLOW
         half = corner_ratios.corner(slow.gate / 2)
         for name in ("gate", "clock_to_q", "setup", "hold"):
@@ -26,12 +26,12 @@ class Ratios(unittest.TestCase):
         self.assertEqual((half.voltage, half.leakage), (slow.voltage, slow.leakage))
         self.assertEqual(corner_ratios.corner(slow.gate), slow)
 
-    def test_an_access_takes_so_many_times_the_typical_one(self):
+    def test_an_access_takes_so_many_times_the_typical_one(self) -> None:
         one, = corner_ratios.macros([Size(2, 10240, 10)], 3.0)
         self.assertAlmostEqual(one.access_slow, 3.6)
         self.assertEqual(one.access_typical, sram_model.ACCESS_TYPICAL_NS)
 
-    def test_each_reading_is_timed_with_its_libraries(self):
+    def test_each_reading_is_timed_with_its_libraries(self) -> None:
         seen = []
 
         def retimed(_result, _technology, _folder, cells, srams, *_):

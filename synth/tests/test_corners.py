@@ -18,7 +18,7 @@ COLUMNS = 13  # from the middle of the first to that of the last: 12 pitches of 
 
 
 class Wires(unittest.TestCase):
-    def test_the_slow_corner_has_a_quarter_more_resistance_and_capacitance(self):
+    def test_the_slow_corner_has_a_quarter_more_resistance_and_capacitance(self) -> None:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             (folder / "slow.lib").write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
@@ -59,13 +59,13 @@ class _Recorder:
 
 
 class Repairs(unittest.TestCase):
-    def test_setup_is_judged_in_the_slow_corner_and_hold_in_the_fast_one(self):
+    def test_setup_is_judged_in_the_slow_corner_and_hold_in_the_fast_one(self) -> None:
         recorder = _Recorder()
         run._timed(recorder, None)
         self.assertEqual([asked[:3] for asked in recorder.asked if "early" in asked], [("fast", "margins", "early")])
         self.assertEqual([asked[:3] for asked in recorder.asked if "nominal" in asked], [("slow", "nominal", "margins")])
 
-    def test_what_resizing_cannot_mend_is_timed_once_after_each_change(self):
+    def test_what_resizing_cannot_mend_is_timed_once_after_each_change(self) -> None:
         class Late(_Recorder):
             changes = iter([True, True, False])
             guards: list[float] = []
@@ -86,7 +86,7 @@ class Repairs(unittest.TestCase):
         self.assertEqual([round(guard, 6) for guard in recorder.guards], [0.004, 0.134, 0.134])
         self.assertFalse(attempt.closes_with_margins)
 
-    def test_hold_is_mended_until_the_fast_corner_has_no_early_path(self):
+    def test_hold_is_mended_until_the_fast_corner_has_no_early_path(self) -> None:
         class TooEarly(_Recorder):
             plan = SimpleNamespace(places={})
 
