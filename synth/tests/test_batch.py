@@ -7,12 +7,14 @@ import unittest
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from unittest import mock
 
 from dtof_synth import batch, configuration
+from dtof_synth.configuration import Configuration
 from dtof_synth.errors import FlowError
+from dtof_synth.run import Technology
 
+from .partial import part_of
 from .small_results import ROOT
 
 JOBS = 20
@@ -28,8 +30,8 @@ def work(job, _technology, folder: Path, _key: str) -> str:
     return job.name
 
 
-def job(number: int) -> SimpleNamespace:
-    return SimpleNamespace(name=f"job{number}", configuration=SimpleNamespace(is_pool=number == 0))
+def job(number: int) -> batch.Job:
+    return part_of(batch.Job, name=f"job{number}", configuration=part_of(Configuration, is_pool=number == 0))
 
 
 class Batch(unittest.TestCase):
@@ -37,8 +39,9 @@ class Batch(unittest.TestCase):
         """(results, or None where a job failed; jobs that had begun a second later)."""
         with tempfile.TemporaryDirectory() as folder, mock.patch.object(batch, "_work", work), \
                 mock.patch.object(batch, "_key", lambda *_: "key"), mock.patch.object(batch, "input_digest", lambda _: "digest"):
+            results: dict | None
             try:
-                results = batch.run_all([job(number) for number in range(first, JOBS)], None, Path(folder), 2, lambda _: None)
+                results = batch.run_all([job(number) for number in range(first, JOBS)], part_of(Technology), Path(folder), 2, lambda _: None)
             except FlowError:
                 results = None
                 running = [path.name for path in Path(folder).iterdir() if path.name != "job0" and not (path / "done").exists()]
@@ -53,6 +56,7 @@ class Batch(unittest.TestCase):
 
     def test_results_are_in_the_order_of_the_jobs(self) -> None:
         results, begun = self.run_all(12)
+        assert results is not None
         self.assertEqual(list(results), [f"job{number}" for number in range(12, JOBS)])
         self.assertEqual(begun, 8)
 
@@ -89,7 +93,7 @@ class Kept(unittest.TestCase):
         with mock.patch.object(batch, "run", run), mock.patch.object(batch, "input_digest", lambda _: digest), \
                 mock.patch.object(batch, "ProcessPoolExecutor", return_value=pool), \
                 mock.patch.object(batch, "as_completed", lambda futures: list(futures)):
-            return batch.run_all(jobs, None, self.folder, 2, self.said.append)
+            return batch.run_all(jobs, part_of(Technology), self.folder, 2, self.said.append)
 
     def test_arrays_with_engines_start_first_and_each_end_is_shown(self) -> None:
         results = self.run_all(self.jobs)

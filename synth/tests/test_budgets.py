@@ -10,7 +10,9 @@ from unittest import mock
 from dtof_synth import budgets, configuration
 from dtof_synth.errors import FlowError
 from dtof_synth.power import Power
+from dtof_synth.run import Result
 
+from .partial import part_of
 from .small_results import ROOT, TIMING, result
 
 BUDGET = {"logic_column_um2": 500.0, "shared_um2": 20000.0, "sram_column_um2": 0.0, "total_mm2": 1.0, "power_mw": 200.0,
@@ -20,7 +22,7 @@ BUDGET = {"logic_column_um2": 500.0, "shared_um2": 20000.0, "sram_column_um2": 0
 class Budgets(unittest.TestCase):
     def moved(self, **changed: float) -> list[str]:
         with mock.patch.object(budgets, "figures", lambda _: BUDGET | changed):
-            return budgets.moved({"some": BUDGET}, {"some": None})
+            return budgets.moved({"some": BUDGET}, {"some": part_of(Result)})
 
     def test_every_figure_has_two_per_cent_to_both_sides(self) -> None:
         for figure, budget in BUDGET.items():
@@ -62,7 +64,7 @@ class Budgets(unittest.TestCase):
         self.assertEqual(self.moved(sram_column_um2=3.0), ["some: sram_column_um2 0 -> 3 (+100.0%)"])
 
     def test_lists_that_differ(self) -> None:
-        self.assertEqual(budgets.moved({"gone": BUDGET}, {"new": None}),
+        self.assertEqual(budgets.moved({"gone": BUDGET}, {"new": part_of(Result)}),
                          ["new: no budget yet", "gone: has a budget but is no configuration"])
 
     def test_the_committed_file_has_every_figure_of_every_configuration(self) -> None:

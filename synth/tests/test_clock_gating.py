@@ -71,6 +71,7 @@ class ClockGating(unittest.TestCase):
 
     def test_the_library_has_its_gate(self) -> None:
         gate = self.library.clock_gate
+        assert gate is not None
         self.assertEqual((gate.name, gate.clock_pin, gate.enable_pin, gate.output_pin), ("CLKGATE_X1", "CK", "E", "GCK"))
         self.assertNotIn("CLKGATE_X1", self.library.sequential)
 
@@ -89,7 +90,9 @@ class ClockGating(unittest.TestCase):
 
     def test_no_gate_is_overloaded(self) -> None:
         column = self.design["modules"]["gated_column"]
-        most = self.library.clock_gate.max_load_ff * netlist.TREE_LOAD_SHARE
+        gate = self.library.clock_gate
+        assert gate is not None
+        most = gate.max_load_ff * netlist.TREE_LOAD_SHARE
         for clock in netlist.clock_nets(column) - netlist.port_clock_nets(column):
             sinks = sum(cell["connections"].get("CK") == [clock] for cell in column["cells"].values())
             self.assertLessEqual(sinks * (standard_cells.DFF_CK_FF + self.library.wire_ff_per_sink), most)

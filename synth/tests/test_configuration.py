@@ -6,8 +6,11 @@ from pathlib import Path
 from dtof_synth import configuration, goals, growth, readouts, sram_kit, technology
 from dtof_synth.configuration import bits_per_pixel, memories
 from dtof_synth.errors import FlowError
+from dtof_synth.run import Result
 from dtof_synth.signalled_clear import configurations as clear_configurations
 from dtof_synth.sram_model import Size
+
+from .partial import part_of
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -83,13 +86,10 @@ class Configurations(unittest.TestCase):
 
 class Ranks(unittest.TestCase):
     def test_alike_areas_share_a_rank(self) -> None:
-        class Area:
-            def __init__(self, mm2):
-                self.total_mm2 = mm2
-
-        areas = {"ezpointer": Area(1.3), "fifh": Area(8.5), "hispointer": Area(8.9), "sifh": Area(14.9)}
+        areas = {name: part_of(Result, total_mm2=mm2)
+                 for name, mm2 in (("ezpointer", 1.3), ("fifh", 8.5), ("hispointer", 8.9), ("sifh", 14.9))}
         self.assertEqual(goals.ranks(areas), goals.THESIS_RANK)
-        areas["hispointer"] = Area(9.0)  # 1.059 times FiFH's
+        areas["hispointer"] = part_of(Result, total_mm2=9.0)  # 1.059 times FiFH's
         self.assertEqual(goals.ranks(areas), {"ezpointer": 1, "fifh": 2, "hispointer": 3, "sifh": 4})
 
 

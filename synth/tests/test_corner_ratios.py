@@ -8,8 +8,10 @@ from types import SimpleNamespace
 from unittest import mock
 
 from dtof_synth import corner_ratios, liberty, sram_model, standard_cells
+from dtof_synth.run import Result, Technology
 from dtof_synth.sram_model import Size
 
+from .partial import part_of
 from .small_results import ROOT
 
 
@@ -43,7 +45,7 @@ class Ratios(unittest.TestCase):
             return SimpleNamespace(margin=lambda: SimpleNamespace(slack=0.1 * len(seen)))
 
         with TemporaryDirectory() as folder, mock.patch.object(corner_ratios, "retimed", retimed):
-            found = corner_ratios.read(None, SimpleNamespace(root=ROOT), Path(folder))
+            found = corner_ratios.read(part_of(Result), part_of(Technology, root=ROOT), Path(folder))
         self.assertEqual([round(one.slack, 1) for one in found], [0.1, 0.2, 0.3])
         access, setup = sram_model.macro(Size(2, 160, 14)).access_typical, 0.137 * 28 / 25.8
         gates, srams = 81 / 25.8, 2.2 / 1.2

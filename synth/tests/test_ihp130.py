@@ -25,6 +25,7 @@ class Choice(unittest.TestCase):
                                    (Size(1, 160, 20), 2, "1P_256x16"), (Size(1, 100, 116), 2, "1P_256x64"),
                                    (Size(2, 256, 16), 1, "2P_256x16")):
             chosen = ihp130.choose(size, self.MACROS)
+            assert chosen is not None
             self.assertEqual((chosen[0], chosen[1].name), (copies, name), size)
 
     def test_too_many_words_or_other_ports(self) -> None:

@@ -227,8 +227,8 @@ class Blocks(unittest.TestCase):
 
     def test_density_is_qflow_s_setting(self) -> None:
         for density, said in ((None, ""), (0.6, "set initial_density=0.6\n")):
-            with tempfile.TemporaryDirectory() as folder:
-                folder = Path(folder)
+            with tempfile.TemporaryDirectory() as temporary:
+                folder = Path(temporary)
                 (folder / "t.par").write_text("random.seed : 1\n", encoding="utf-8")
                 tools.Project(folder / "qflow", self.block, tools.Cells(folder, "t"), 7, density)
                 self.assertEqual((folder / "qflow" / "project_vars.sh").read_text(encoding="utf-8"), said)
@@ -287,7 +287,7 @@ class Wires(unittest.TestCase):
         self.assertEqual(repair.mend_lone_vias(DEF, {"Metal2 area < 20": [(119.0, 54.8, 119.4, 55.2)]}), (DEF, 0))
 
     def test_a_lone_via_at_the_wrong_end_of_a_path(self) -> None:
-        at_the_end = {"Metal1 area < 20": [(119.8, 6.8, 120.2, 7.2)]}
+        at_the_end: dict[str, list[tuple[float, ...]]] = {"Metal1 area < 20": [(119.8, 6.8, 120.2, 7.2)]}
         text, number = repair.mend_lone_vias(DEF, at_the_end)
         self.assertEqual((text, number), (DEF.replace("( 12000 600 ) ( * 700 ) M2_M1", "( 12000 700 ) ( 12000 600 ) M2_M1"), 1))
         # Neither the beginning of that path, nor another layer's, nor what is not there.

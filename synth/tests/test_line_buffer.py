@@ -2,12 +2,13 @@
 import tempfile
 import unittest
 from pathlib import Path
-from types import SimpleNamespace
 
 from dtof_synth import line_buffer, standard_cells
 from dtof_synth.errors import FlowError
+from dtof_synth.library import Library
 from dtof_synth.run import Technology
 
+from .partial import part_of
 from .small_results import ROOT, result
 
 
@@ -22,7 +23,7 @@ class Area(unittest.TestCase):
         cls.folder = Path(cls.kept.name)
         liberty = cls.folder / "typical.lib"
         liberty.write_text(standard_cells.library(standard_cells.TYPICAL), encoding="utf-8")
-        cls.technology = SimpleNamespace(root=ROOT, typical=SimpleNamespace(path=liberty))
+        cls.technology = part_of(Technology, root=ROOT, typical=part_of(Library, path=liberty))
 
     @classmethod
     def tearDownClass(cls) -> None:

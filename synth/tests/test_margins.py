@@ -21,6 +21,7 @@ NONE = Counts(0, 0, 0.0, 0, 0.0, 0.0, 0.0)
 def slacks(text: str) -> tuple[float, float]:
     """Setup and hold, as synth/sta/timing.tcl prints them."""
     found = re.search(r"^DTOF_MARGIN_SLACK (\S+) (\S+)", text, re.MULTILINE)
+    assert found is not None
     return float(found.group(1)), float(found.group(2))
 
 
@@ -47,8 +48,8 @@ class Margins(unittest.TestCase):
         stages = 60
         nets = [f"n{index}" for index in range(stages + 1)]
         gates = "".join(f"  INV_X1 i{index} (.A({a}), .Y({b}));\n" for index, (a, b) in enumerate(zip(nets, nets[1:])))
-        with tempfile.TemporaryDirectory() as folder:
-            folder = Path(folder)
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
             liberty = folder / "slow.lib"
             liberty.write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
             (folder / "fork.v").write_text(
@@ -93,8 +94,8 @@ class Margins(unittest.TestCase):
     def test_derate_and_uncertainty_cost_what_they_should(self) -> None:
         # A chain between two flip-flops: the margins take 5 % of what arrives late and 0.05 ns more of uncertainty; hold
         # loses 5 % of the shortest path.
-        with tempfile.TemporaryDirectory() as folder:
-            folder = Path(folder)
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
             liberty = folder / "slow.lib"
             liberty.write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
             nets = [f"n{index}" for index in range(13)]

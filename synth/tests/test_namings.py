@@ -4,16 +4,17 @@
 import tempfile
 import unittest
 from pathlib import Path
-from types import SimpleNamespace
 from unittest import mock
 
 from dtof_synth import batch, configuration, namings, run
 
+from .partial import part_of
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def result(mm2: float, setup: float = 0.01, hold: float = 0.0) -> SimpleNamespace:
-    return SimpleNamespace(total_mm2=mm2, margins={"slow": SimpleNamespace(slack=setup), "fast": SimpleNamespace(hold_slack=hold)})
+def result(mm2: float, setup: float = 0.01, hold: float = 0.0) -> run.Result:
+    return part_of(run.Result, total_mm2=mm2, margins={"slow": part_of(run.Margin, slack=setup), "fast": part_of(run.Margin, hold_slack=hold)})
 
 
 class Efforts(unittest.TestCase):
@@ -23,10 +24,10 @@ class Efforts(unittest.TestCase):
 
         def attempt(_configuration, _technology, _folder, number, naming):
             tried.append((number, naming))
-            return SimpleNamespace(closes_with_margins=number in closing)
+            return part_of(run._Attempt, closes_with_margins=number in closing)
 
         with mock.patch.object(run, "_attempt", attempt):
-            run._attempts(configuration.load(ROOT / "configurations.toml")[name], None, Path(), most, naming)
+            run._attempts(configuration.load(ROOT / "configurations.toml")[name], part_of(run.Technology), Path(), most, naming)
         return tried
 
     def test_efforts_are_tried_until_one_closes(self) -> None:
@@ -41,8 +42,8 @@ class Efforts(unittest.TestCase):
         self.assertEqual(self.efforts_tried(set(), most=1), [(0, 0)])
 
     def test_the_smallest_that_closes_is_taken_else_the_one_that_misses_least(self) -> None:
-        def attempt(area: float, rank: float) -> SimpleNamespace:
-            return SimpleNamespace(rank=rank, closes_with_margins=rank >= 0, netlist=SimpleNamespace(cell_area=lambda: area))
+        def attempt(area: float, rank: float) -> run._Attempt:
+            return part_of(run._Attempt, rank=rank, closes_with_margins=rank >= 0, netlist=part_of(run._Netlist, cell_area=lambda: area))
 
         self.assertEqual(run._best([attempt(3, 0.2), attempt(2, 0.0), attempt(1, -0.1)]).netlist.cell_area(), 2)
         self.assertEqual(run._best([attempt(3, -0.1), attempt(2, -0.2)]).netlist.cell_area(), 3)
@@ -53,7 +54,7 @@ class Spread(unittest.TestCase):
         self.configuration = configuration.load(ROOT / "configurations.toml")["ezpointer"]
         self.jobs = namings.jobs([self.configuration])
 
-    def spread(self, **changed: SimpleNamespace) -> namings.Spread:
+    def spread(self, **changed: run.Result) -> namings.Spread:
         """Areas 1.00, 1.01 ... 1.07 mm2, all closing, but for the `changed` jobs."""
         results = {job.name: result(1 + job.naming / 100) for job in self.jobs} | changed
         return namings.spreads([self.configuration], results)["ezpointer"]

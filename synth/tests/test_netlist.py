@@ -6,11 +6,11 @@ import os
 import unittest
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 
 from dtof_synth import netlist
 from dtof_synth.library import Buffer, Library
 
+from .partial import part_of
 from .small_netlists import cell
 
 
@@ -205,8 +205,8 @@ class FanoutTrees(unittest.TestCase):
             self.assertEqual(netlist.has_pin(design, pin), there, pin)
 
     def test_registers_draw_their_first_state_in_the_order_of_the_modules(self) -> None:
-        modules = {f"m{number}": {"cells": {"r": {"type": "DFF"}}} for number in range(8)}
-        kinds = SimpleNamespace(sequential={"DFF": None})
+        modules: dict[str, dict] = {f"m{number}": {"cells": {"r": {"type": "DFF"}}} for number in range(8)}
+        kinds = part_of(Library, sequential={"DFF"})
         drawn = iter([False, True, True, False, True, False, False, True])
         netlist.prepare_simulation({"modules": modules}, kinds, "_netlist", "POWER_UP", lambda: next(drawn))
         self.assertEqual([module["cells"]["r"]["parameters"]["POWER_UP"] for module in modules.values()], list("01101001"))

@@ -19,7 +19,9 @@ SIGNATURES = {"RECT": 4, "SIZE": 3, "FOREIGN": 3, "LAYER": 1, "CLASS": 1, "DIREC
 
 def statements(text: str) -> list[tuple[tuple[str, ...], list[str]]]:
     """(blocks around it, words) of every statement of a LEF; ValueError where blocks and ends do not match."""
-    found, around, names = [], [], []
+    found: list[tuple[tuple[str, ...], list[str]]] = []
+    around: list[str] = []
+    names: list[list[str]] = []
     for line in text.splitlines():
         words = line.split()
         if not words:

@@ -11,6 +11,7 @@ from dtof_synth import activity, configuration, library, liberty, part_costs, ru
 from dtof_synth.activity import STREAMING, Activity, Energy, Scope
 from dtof_synth.sram_model import Size
 
+from .partial import part_of
 from .small_results import ROOT
 
 
@@ -61,7 +62,7 @@ class PartCosts(unittest.TestCase):
                     mock.patch.object(part_costs.scene_power, "small_case", return_value=case), \
                     mock.patch.object(part_costs.scene_power, "count_activity", return_value=Activity(scopes, {STREAMING: 100})), \
                     mock.patch.object(activity, "energy", return_value=Energy(nets=2000.0, sram=1000.0)):
-                parts = part_costs.measure(pool, SimpleNamespace(typical=cells), Path(folder), 1, said.append)
+                parts = part_costs.measure(pool, part_of(run.Technology, typical=cells), Path(folder), 1, said.append)
             part_costs.write_csv(Path(folder) / "parts.csv", parts)
             lines = (Path(folder) / "parts.csv").read_text(encoding="utf-8").splitlines()
         self.assertEqual(elaborate.call_args.args[0], case.configuration)

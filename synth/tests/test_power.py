@@ -2,10 +2,11 @@
 import tempfile
 import unittest
 from pathlib import Path
-from types import SimpleNamespace
 
 from dtof_synth import configuration, power, scene_power, sram_model, standard_cells, tools, wide_words
-from dtof_synth.library import Buffer
+from dtof_synth.library import Buffer, Library
+
+from .partial import part_of
 
 SYNTH = Path(__file__).resolve().parents[1]
 NAMED = configuration.load(SYNTH.parent / "configurations.toml")
@@ -70,7 +71,7 @@ class Clock(unittest.TestCase):
     def test_the_tree_has_a_level_of_buffers_for_each_load_that_is_too_large(self) -> None:
         # 1,000 flip-flops of 1 fF and 0.5 fF of wire each are 1,500 fF; a buffer takes half of 160 fF: 19 buffers, whose pins of
         # 2 fF and wires of 0.5 fF are 47.5 fF. One buffer drives these.
-        library = SimpleNamespace(buffers=[Buffer("BUF_X16", "A", "Y", 3.0, 2.0, 160.0)], wire_ff_per_sink=0.5)
+        library = part_of(Library, buffers=[Buffer("BUF_X16", "A", "Y", 3.0, 2.0, 160.0)], wire_ff_per_sink=0.5)
         tree = power.clock_tree(1000, 1000.0, library)
         self.assertEqual((tree.buffers, tree.area, tree.load_ff), (19, 57.0, 1547.5))
 
@@ -78,7 +79,7 @@ class Clock(unittest.TestCase):
         # OpenSTA's internal power is halved: 10 columns of 2 uW and 1 uW beside them are 0.021 mW; 1,000 fF at 1.1 V and 330 MHz
         # are 0.3993 mW.
         output = "DTOF_POWER CLOCK column 4.0e-06 9.0 9.0\nDTOF_POWER CLOCK shared 2.0e-06 9.0 9.0\n"
-        found = power.clock_mw(output, 10, power.ClockTree(1, 1.0, 1000.0), SimpleNamespace(voltage=1.1), 330.0)
+        found = power.clock_mw(output, 10, power.ClockTree(1, 1.0, 1000.0), part_of(Library, voltage=1.1), 330.0)
         self.assertAlmostEqual(found, 0.021 + 0.3993, places=9)
 
 

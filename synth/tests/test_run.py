@@ -7,6 +7,7 @@ import unittest
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import cast
 from unittest import mock
 
 from dtof_synth import configuration, library, netlist, run, sram_model, standard_cells, timing
@@ -16,6 +17,7 @@ from dtof_synth.netlist import Counts
 from dtof_synth.power import ClockTree
 from dtof_synth.sram_model import Size
 
+from .partial import part_of
 from .small_results import MARGIN, ROOT, TIMING, result
 from .test_floorplan import array
 
@@ -30,8 +32,8 @@ class InFolder(unittest.TestCase):
 
 
 class Mapping(InFolder):
-    TECHNOLOGY = SimpleNamespace(root=ROOT, target_mhz=330.0, slow=SimpleNamespace(
-        inverter="INV_X1", input_ff={"INV_X1": {"A": 1.5}}, path=Path("slow.lib"), tie={"0": ("TIE0", "Y"), "1": ("TIE1", "Y")}))
+    TECHNOLOGY = part_of(run.Technology, root=ROOT, target_mhz=330.0, slow=part_of(
+        library.Library, inverter="INV_X1", input_ff={"INV_X1": {"A": 1.5}}, path=Path("slow.lib"), tie={"0": ("TIE0", "Y"), "1": ("TIE1", "Y")}))
 
     def settings(self, name: str, effort: int, naming: int = 0, foreign: frozenset = frozenset()) -> dict:
         (self.folder / "mapped.json").write_text("{}", encoding="utf-8")
@@ -83,9 +85,9 @@ class Netlists(InFolder):
             (self.folder / f"{name}.lib").write_text(text, encoding="utf-8")
         cells = {name: library.read(self.folder / f"{name}.lib") for name in texts}
         self.technology = run.Technology(cells["typical"], cells["slow"], self.folder / "kit", ROOT, 330.0, cells["fast"])
-        chosen = SimpleNamespace(name="some", top="array", column_modules=5, engines=0, engine_columns=0, module_columns=1)
+        chosen = part_of(configuration.Configuration, name="some", top="array", column_modules=5, engines=0, engine_columns=0, module_columns=1)
         self.design = array(5)
-        self.netlist = run._Netlist(self.design, Floorplan(self.design, 1), chosen, self.technology, self.folder / "effort0", None)
+        self.netlist = run._Netlist(self.design, Floorplan(self.design, 1), chosen, self.technology, self.folder / "effort0", {})
         self.netlist.prepare()
 
     def measured(self, corner: str, *steps: str, **settings) -> tuple:
@@ -126,8 +128,9 @@ class Netlists(InFolder):
         self.assertEqual(self.judge.call_args.args[0], "some")
 
     def test_gates_are_resized_in_the_slow_corner(self) -> None:
-        for found, changed in (({}, False), ({"resized": [("test_column", "i", "INV_X2")]}, True),
-                               ({"dropped": [("test_column", "i")]}, True)):
+        cases: list[tuple[dict[str, list], bool]] = [({}, False), ({"resized": [("test_column", "i", "INV_X2")]}, True),
+                                                     ({"dropped": [("test_column", "i")]}, True)]
+        for found, changed in cases:
             report = SimpleNamespace(**{"resized": [], "dropped": [], "resized_slack": 0.125, **found})
             with mock.patch.object(run._Netlist, "time", return_value=report) as timed, mock.patch.object(run.netlist, "drop_buffers"):
                 resized = self.netlist.resize(True, 0.01)
@@ -151,7 +154,12 @@ class _Finished:
     design, plan = {"a": "design"}, "plan"
 
     def __init__(self, slacks: list[float], changes: list[bool]) -> None:
-        self.slacks, self.changes, self.done = slacks, changes, []
+        self.slacks, self.changes = slacks, changes
+        self.done: list[tuple] = []
+
+    def netlist(self) -> run._Netlist:
+        """This netlist for code that takes one of the flow."""
+        return cast(run._Netlist, self)
 
     def time(self, corner: str, *steps: str) -> SimpleNamespace:
         self.done.append((corner, *steps))
@@ -163,7 +171,7 @@ class _Finished:
         return run.Resized(self.changes.pop(0), 0.0)
 
     def fix_hold(self, report, spare) -> timing.Margin:
-        self.done.append(("hold", report if isinstance(report, str) else report.output, spare))
+        self.done.append(("hold", report.output, spare))
         return replace(MARGIN, start="fast")
 
     def cell_area(self) -> float:
@@ -189,9 +197,10 @@ class Run(InFolder):
     def finish(self, name: str = "ezpointer", slacks: tuple = (0.1,), changes: tuple = (), corners: tuple = run.BOTH_CORNERS, margin=MARGIN):
         """(result, what was done with the netlist)."""
         timed = _Finished([*slacks], [*changes])
-        best = run._Attempt(timed, 2, 0.3, margin, "early report" if margin else None, {"pin": 0.5})
-        cells = SimpleNamespace(nand2_area=0.8, mux2_area=2.0)
-        self.technology = SimpleNamespace(slow=cells, typical=SimpleNamespace(), fast=object())
+        early = part_of(timing.Report, output="early report") if margin else None
+        best = run._Attempt(timed.netlist(), 2, 0.3, margin, early, {"pin": 0.5})
+        cells = part_of(library.Library, nand2_area=0.8, mux2_area=2.0)
+        self.technology = part_of(run.Technology, slow=cells, typical=part_of(library.Library), fast=object())
         with mock.patch.object(run, "elaborate") as self.elaborate, mock.patch.object(run, "_attempts", return_value=[best]) as self.attempts, \
                 mock.patch.object(run.loads, "check", return_value="fullest") as self.loads, \
                 mock.patch.object(run.floorplan, "pin_load", return_value="pin load"), \
@@ -249,14 +258,16 @@ class Run(InFolder):
 
 class Attempts(unittest.TestCase):
     def test_an_attempt_closes_with_a_tenth_of_a_nanosecond_and_with_margins(self) -> None:
+        nothing = part_of(run._Netlist)
         for slack, margin, closes in ((0.1, 0.0, True), (0.0999, 0.2, False), (0.3, -0.0001, False), (0.1, None, True), (0.09, None, False)):
-            attempt = run._Attempt(None, 0, slack, None if margin is None else replace(MARGIN, slack=margin))
+            attempt = run._Attempt(nothing, 0, slack, None if margin is None else replace(MARGIN, slack=margin))
             self.assertEqual(attempt.closes_with_margins, closes, (slack, margin))
-        self.assertAlmostEqual(run._Attempt(None, 0, 0.3, replace(MARGIN, slack=0.05)).rank, 0.05)
-        self.assertAlmostEqual(run._Attempt(None, 0, 0.12, replace(MARGIN, slack=0.05)).rank, 0.02)
+        self.assertAlmostEqual(run._Attempt(nothing, 0, 0.3, replace(MARGIN, slack=0.05)).rank, 0.05)
+        self.assertAlmostEqual(run._Attempt(nothing, 0, 0.12, replace(MARGIN, slack=0.05)).rank, 0.02)
 
     def test_a_slow_path_of_the_array_decides_about_a_library_without_a_fast_corner(self) -> None:
-        timed = SimpleNamespace(technology=SimpleNamespace(fast=None), time=lambda *asked: SimpleNamespace(slack=0.25 if asked == ("slow", "nominal") else 9))
+        timed = part_of(run._Netlist, technology=part_of(run.Technology, fast=None),
+                        time=lambda *asked: SimpleNamespace(slack=0.25 if asked == ("slow", "nominal") else 9))
         self.assertEqual(run._timed(timed, 4), run._Attempt(timed, 4, 0.25, None))
 
 
@@ -268,10 +279,11 @@ class OtherWays(InFolder):
         self.effort = self.folder / "effort1"
         self.effort.mkdir()
         self.result = replace(result("ezpointer"), effort=1)
-        self.technology = SimpleNamespace(slow=SimpleNamespace(path=Path("cells.lib"), wire_load="slow wires", drives=[["A", "B"]], area={"A": 1.0},
-                                                               buffers=[SimpleNamespace(input_pin="A", output_pin="Y")]),
-                                          typical=SimpleNamespace(wire_load="other"), fast=SimpleNamespace(path=Path("other.lib"), wire_load="other"),
-                                          kit=Path("kit"), root=ROOT, target_mhz=330.0)
+        slow = part_of(library.Library, path=Path("cells.lib"), wire_load="slow wires", drives=[["A", "B"]], area={"A": 1.0},
+                       buffers=[part_of(library.Buffer, input_pin="A", output_pin="Y")])
+        fast = part_of(library.Library, path=Path("other.lib"), wire_load="other")
+        self.technology = part_of(run.Technology, slow=slow, typical=part_of(library.Library, wire_load="other"), fast=fast, kit=Path("kit"), root=ROOT,
+                                  target_mhz=330.0)
         (self.effort / timing.BLOCKS).write_text(json.dumps({"blocks": ["a_column", ["c0"], 2]}), encoding="utf-8")
 
     def measured(self, what, *arguments):
@@ -307,8 +319,8 @@ class OtherWays(InFolder):
         kit.mkdir()
         for name in ("a.lib", "typical.lib", "slow.lib"):
             ((kit if name == "a.lib" else self.folder) / name).write_text(name, encoding="utf-8")
-        some = SimpleNamespace(root=ROOT, kit=kit, typical=SimpleNamespace(path=self.folder / "typical.lib"),
-                               slow=SimpleNamespace(path=self.folder / "slow.lib"))
+        some = part_of(run.Technology, root=ROOT, kit=kit, typical=part_of(library.Library, path=self.folder / "typical.lib"),
+                       slow=part_of(library.Library, path=self.folder / "slow.lib"))
 
         def digest(flow: str = "flow") -> str:
             with mock.patch.object(run.report_inputs, "flow_digest", return_value=flow):

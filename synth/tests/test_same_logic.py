@@ -108,7 +108,9 @@ class SameLogic(unittest.TestCase):
         self.assertEqual(self.refusal(lambda pair, top: pair.update(extra=cell("INV_X1", {"A": 4}, {"Y": 90}))), "a_quad: extra is new")
 
     def test_a_module_that_only_one_of_them_has_is_found(self) -> None:
-        for before, after, said in (({"a": {"x": (1,)}}, {}, "a: x is gone"), ({}, {"a": {"x": (1,)}}, "a: x is new")):
+        nothing: same_logic.Logic = {}
+        one: same_logic.Logic = {"a": {"x": (1,)}}
+        for before, after, said in ((one, nothing, "a: x is gone"), (nothing, one, "a: x is new")):
             with self.assertRaisesRegex(FlowError, said):
                 same_logic.check(before, after)
 

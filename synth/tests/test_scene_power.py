@@ -7,7 +7,6 @@ import unittest
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from unittest import mock
 
 from dtof_synth import configuration, library, run, scene_power, sram_model, standard_cells
@@ -17,6 +16,7 @@ from dtof_synth.errors import FlowError
 from dtof_synth.library import Library
 from dtof_synth.power import ClockTree
 
+from .partial import part_of
 from .small_netlists import cell, module
 from .small_results import ROOT, result
 
@@ -65,7 +65,7 @@ class Array(unittest.TestCase):
         some = result("ezpointer")
         some = replace(some, shared=replace(some.shared, area=cls.library.area["INV_X1"], clock_energy_fj=100.0),
                        column_module=replace(some.column_module, clock_energy_fj=7.0), clock_tree=ClockTree(1, 1.0, 1000.0))
-        technology = SimpleNamespace(typical=cls.library, slow=cls.library)
+        technology = part_of(run.Technology, typical=cls.library, slow=cls.library)
         with mock.patch.object(scene_power, "simulate", return_value=(design, counted)), \
                 mock.patch.object(scene_power, "uniform_mw", return_value=0.0):
             cls.power = scene_power.power(cls.configuration, "day", some, folder, technology, folder, 1)
@@ -131,7 +131,8 @@ class Pool(unittest.TestCase):
         with mock.patch.object(scene_power, "simulate", return_value=(design, counted)) as cls.simulate, \
                 mock.patch.object(scene_power, "uniform_mw", return_value=9.5) as cls.uniform, \
                 mock.patch.object(scene_power.activity, "energy", lambda scope, *_: cls.ENERGIES[scope.module]):
-            cls.power = scene_power.power(NAMED["poolpointer"], "dusk", some, folder, SimpleNamespace(typical=cls.library, slow=cls.library), folder, 5)
+            technology = part_of(run.Technology, typical=cls.library, slow=cls.library)
+            cls.power = scene_power.power(NAMED["poolpointer"], "dusk", some, folder, technology, folder, 5)
 
     def test_each_part_is_scaled_to_the_array(self) -> None:
         # fJ in 100 clocks of 330 MHz.
@@ -165,7 +166,7 @@ class Pool(unittest.TestCase):
                 "i": cell("INV_X1", {"A": 3}, {"Y": 4})}}, "a_quad_netlist": module({}, {})}}, counted)), \
                 mock.patch.object(scene_power, "uniform_mw", return_value=0.0), self.assertRaisesRegex(FlowError, "no clock of the phase other"):
             scene_power.power(NAMED["ezpointer"], "day", result("ezpointer"), Path(self.scratch.name),
-                              SimpleNamespace(typical=self.library, slow=self.library), Path(self.scratch.name), 1)
+                              part_of(run.Technology, typical=self.library, slow=self.library), Path(self.scratch.name), 1)
 
 
 class Steps(unittest.TestCase):
@@ -175,8 +176,8 @@ class Steps(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
-        self.technology = SimpleNamespace(typical=SimpleNamespace(path=Path("typical.lib"), wire_load="typical wires"),
-                                          slow=SimpleNamespace(path=Path("slow.lib"), wire_load="slow wires"), kit=Path("kit"), root=ROOT)
+        typical, slow = (part_of(Library, path=Path(f"{corner}.lib"), wire_load=f"{corner} wires") for corner in ("typical", "slow"))
+        self.technology = part_of(run.Technology, typical=typical, slow=slow, kit=Path("kit"), root=ROOT)
 
     def test_opensta_gets_the_rate_in_the_typical_corner(self) -> None:
         for name, column, modules in (("ezpointer", "u_column", 200), ("poolpointer", "u_quad", 50)):
@@ -275,18 +276,20 @@ class Steps(unittest.TestCase):
 
     def run_all(self, fails: str = "") -> tuple[list, list[str], list[str]]:
         """(results, what was said, what began)"""
-        begun, said = [], []
+        begun: list[str] = []
+        said: list[str] = []
 
         def power(chosen, light, _result, run_folder, _technology, folder, _seed):
             begun.append(f"{chosen.name} {light} {run_folder.name} {folder.name}")
             if chosen.name == fails:
                 raise FlowError(f"{fails} fails")
-            return SimpleNamespace(name=f"{chosen.name} {light}", streaming=SimpleNamespace(total=1.5))
+            return part_of(scene_power.ScenePower, configuration=chosen, light=light, streaming=part_of(scene_power.Parts, total=1.5))
 
         chosen = [NAMED[name] for name in ("ezpointer", "poolpointer")]
         with mock.patch.object(scene_power, "power", power), mock.patch.object(scene_power, "ProcessPoolExecutor", ThreadPoolExecutor):
-            found = scene_power.run(chosen, dict.fromkeys(("ezpointer", "poolpointer")), Path("runs"), self.technology, self.folder, 1, 1, said.append)
-        return [one.name for one in found], said, begun
+            found = scene_power.run(chosen, dict.fromkeys(("ezpointer", "poolpointer"), part_of(run.Result)), Path("runs"), self.technology,
+                                    self.folder, 1, 1, said.append)
+        return [f"{one.configuration.name} {one.light}" for one in found], said, begun
 
     def test_long_simulations_begin_first_and_results_have_the_order_of_the_list(self) -> None:
         found, said, begun = self.run_all()

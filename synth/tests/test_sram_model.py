@@ -105,10 +105,10 @@ class SramModel(unittest.TestCase):
                 self.assertAlmostEqual(again.scale / law.scale, 1, delta=1e-3, msg=f"{ports} {column}")
                 self.assertAlmostEqual(again.words_exponent, law.words_exponent, delta=1e-4)
                 self.assertAlmostEqual(again.bits_exponent, law.bits_exponent, delta=1e-4)
-            again = sram_report.fit_linear_in_bits(self.points(rows, "read_pJ"))
-            self.assertAlmostEqual(again.scale / kind.read_energy.scale, 1, delta=1e-3)
-            self.assertAlmostEqual(again.words_exponent, kind.read_energy.words_exponent, delta=1e-4)
-            self.assertAlmostEqual(again.offset, kind.read_energy.offset, delta=1e-2)
+            line = sram_report.fit_linear_in_bits(self.points(rows, "read_pJ"))
+            self.assertAlmostEqual(line.scale / kind.read_energy.scale, 1, delta=1e-3)
+            self.assertAlmostEqual(line.words_exponent, kind.read_energy.words_exponent, delta=1e-4)
+            self.assertAlmostEqual(line.offset, kind.read_energy.offset, delta=1e-2)
 
     @unittest.skipUnless((PDK / "sram_points").is_dir(), "../shared/pdk is not present")
     def test_read_energy_is_within_a_quarter_of_every_cacti_point(self) -> None:

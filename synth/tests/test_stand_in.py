@@ -5,12 +5,12 @@ import re
 import tempfile
 import unittest
 from pathlib import Path
-from types import SimpleNamespace
 
 from dtof_synth import endpoints, liberty, library, netlist, sram_kit, stand_in, standard_cells, timing, tools, verilog
 from dtof_synth.errors import FlowError
 from dtof_synth.library import Library
 
+from .partial import part_of
 from .small_netlists import cell, module
 from .small_results import ROOT
 
@@ -77,7 +77,7 @@ class StandIns(unittest.TestCase):
     def timed(self, design: dict) -> tuple[dict, stand_in.StandIn]:
         return stand_in.timed(design, ["c0", "c1", f"c{COLUMNS - 1}"], self.library, self.load)
 
-    def slowest(self, report: timing.Report) -> tuple[float, float, str]:
+    def slowest(self, report: timing.Report) -> tuple[float, float, list[tuple[str, str]]]:
         """Setup, hold, and the slowest path's arrivals, pin by pin."""
         path = report._section("DTOF_PATH_MAX").split("data arrival time")[0]
         return report.slack, report._number("DTOF_SLACK", 1), re.findall(r"([\d.]+) [v^] (\S+)", path)
@@ -136,7 +136,7 @@ class StandIns(unittest.TestCase):
 
     def test_load_cells_are_named_by_hundredths_and_are_inputs_alone(self) -> None:
         # Two pins of 1 and 2.25 fF and the wire of one of them; a pin alone has none; nothing is missing behind the third net.
-        cells, loads = stand_in._load_cells({5: [1.0, 2.25], 6: [1.0], 7: []}, SimpleNamespace(wire_ff_per_sink=0.5))
+        cells, loads = stand_in._load_cells({5: [1.0, 2.25], 6: [1.0], 7: []}, part_of(Library, wire_ff_per_sink=0.5))
         self.assertEqual(loads, {"load_375": 3.75, "load_100": 1.0})
         self.assertEqual({name: (one["type"], one["connections"]) for name, one in cells.items()},
                          {"load_5": ("load_375", {"A": [5]}), "load_6": ("load_100", {"A": [6]})})

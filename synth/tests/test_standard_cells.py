@@ -75,7 +75,7 @@ def stages(name: str, output: str, pin: str) -> list[tuple[float, float, float]]
     inputs = int(kind[-1]) if kind[-1].isdigit() else 1
     series, parallel = (inputs + 2) / 3, (2 * inputs + 1) / 3
     last = (1, 1, k)
-    return {
+    shapes: dict[str, list[tuple[float, float, float]]] = {
         "INV": [last], "BUF": [(1, 1, i), last], f"NAND{inputs}": [(inputs, series, k)], f"NOR{inputs}": [(inputs, parallel, k)],
         f"AND{inputs}": [(inputs, series, i), last], f"OR{inputs}": [(inputs, parallel, i), last],
         "AOI21": [(7 / 3, 5 / 3 if pin == "B" else 2, k)], "OAI21": [(8 / 3, 4 / 3 if pin == "B" else 2, k)], "AOI22": [(4, 2, k)],
@@ -83,7 +83,8 @@ def stages(name: str, output: str, pin: str) -> list[tuple[float, float, float]]
         "OAI211": [(11 / 3, 7 / 3 if pin[0] == "A" else 5 / 3, k)], "XOR2": [(2, 5 / 3, 1), (7 / 3, 5 / 3, k)],
         "XNOR2": [(2, 4 / 3, 1), (8 / 3, 4 / 3, k)], "MUX2": [*([(1, 1, 1)] if pin == "S" else []), (4, 2, i), last],
         "HA": [(2, 5 / 3, 1), (7 / 3, 5 / 3, 1)] if output == "S" else [(2, 4 / 3, 1), last],
-        "FA": [*([(4, 2, 1)] if output == "S" else []), (4, 2, 1), last], "CLKGATE": [(2, 4 / 3, 1), last]}[kind]
+        "FA": [*([(4, 2, 1)] if output == "S" else []), (4, 2, 1), last], "CLKGATE": [(2, 4 / 3, 1), last]}
+    return shapes[kind]
 
 
 # Pitches of a NAND2's third, and loads of the pins in inverter inputs.
@@ -153,8 +154,8 @@ class ByHand(unittest.TestCase):
     def test_functions_and_senses(self) -> None:
         cells = self.cells()
         for kind, function in FUNCTIONS.items():
-            output = next(pin for pin in cells[f"{kind}_X1"].children("pin") if pin.get("direction") == "output")
-            self.assertEqual(output.get("function"), function)
+            driven = next(pin for pin in cells[f"{kind}_X1"].children("pin") if pin.get("direction") == "output")
+            self.assertEqual(driven.get("function"), function)
         for name, output, expected in (("NAND2_X1", "Y", "negative_unate"), ("AND3_X2", "Y", "positive_unate"), ("INV_X4", "Y", "negative_unate"),
                                        ("BUF_X1", "Y", "positive_unate"), ("XOR2_X1", "Y", "non_unate"), ("AOI22_X1", "Y", "negative_unate"),
                                        ("FA_X1", "S", "non_unate"), ("FA_X1", "CO", "positive_unate"), ("HA_X1", "CO", "positive_unate")):
@@ -213,7 +214,7 @@ class ByHand(unittest.TestCase):
                                 self.near(value, SLEW * tau * (1 + load) if slew else 0.1150388 * clock_to_q + STEP * tau * (load - 4), name)
                 checks = {arc.get("timing_type"): self.numbers(arc.groups[0], "values")[0][0] for pin in pins.values() for arc in pin.children("timing")
                           if pin.get("direction") == "input"}
-                kinds = ("setup_falling", "hold_falling") if name == "DLATCH_X1" else ("setup_rising", "hold_rising")
+                kinds: tuple[str, ...] = ("setup_falling", "hold_falling") if name == "DLATCH_X1" else ("setup_rising", "hold_rising")
                 if name[:4] in ("DFFR", "DFFS"):
                     kinds += ("recovery_rising", "removal_rising")
                 self.assertEqual(set(checks), set(kinds))

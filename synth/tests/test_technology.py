@@ -38,6 +38,7 @@ class Prepared(unittest.TestCase):
 
     def test_generated_libraries_have_three_corners(self) -> None:
         found = self.prepare()
+        assert found.fast is not None
         for corner, cells in (("typical", found.typical), ("slow", found.slow), ("fast", found.fast)):
             self.assertEqual(cells.path, self.folder / f"generic40_{corner}.lib")
             self.assertEqual(cells.path.read_text(encoding="utf-8"), self.texts[corner])

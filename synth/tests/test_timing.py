@@ -136,8 +136,8 @@ Endpoint: b (rising edge-triggered flip-flop clocked by clk)
                          standard_cells.library(standard_cells.SLOW, standard_cells.WIRE_UM_PER_FANOUT))
         nets = [f"n{index}" for index in range(13)]
         gates = "".join(f"  INV_X1 i{index} (.A({a}), .Y({b}));\n" for index, (a, b) in enumerate(zip(nets, nets[1:])))
-        with tempfile.TemporaryDirectory() as folder:
-            folder = Path(folder)
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
             (folder / "chain.v").write_text(
                 f"module chain (clk_i, a);\n  input clk_i; input a;\n  wire q, {', '.join(nets)};\n"
                 f"  DFF_X1 a (.D(a), .CK(clk_i), .Q({nets[0]}));\n{gates}"

@@ -45,8 +45,8 @@ def connections(module: dict) -> set[frozenset]:
 
 class Verilog(unittest.TestCase):
     def test_yosys_reads_the_same_netlist(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            folder = Path(folder)
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
             (folder / "array.v").write_text(
                 "(* blackbox *) module AND (input A, input B, output Y); endmodule\n" + verilog.write(design()), encoding="utf-8")
             (folder / "read.tcl").write_text(
