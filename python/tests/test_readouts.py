@@ -97,7 +97,7 @@ class ReadoutTest(unittest.TestCase):
 
     def test_table_of_own_measurements(self) -> None:
         distances = np.linspace(1.0, 4.0, 7)
-        table = dtof.LookupTable.fit(distances.tolist(), np.outer(distances, np.full(9, 100.0)), 0.0)
+        table = dtof.LookupTable.fit([float(distance) for distance in distances], np.outer(distances, np.full(9, 100.0)), 0.0)
         np.testing.assert_allclose(table.distance([150.0, 333.0]), [1.5, 3.33])
         with self.assertRaisesRegex(ValueError, "two axes are wanted"):
             dtof.LookupTable.fit([1.0, 2.0], np.zeros(2))
