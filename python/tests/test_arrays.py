@@ -3,6 +3,7 @@
 
 import gc
 import unittest
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,8 +15,9 @@ class ArrayTest(unittest.TestCase):
     def test_shared_arrays_are_read_only_and_outlive_their_owner(self) -> None:
         frame = dtof.frame(dtof.Scene("room", columns=7, rows=5), readouts=["sifh"])
         made = frame["sifh"]
-        shared = {"truth": (frame.truth_m, np.float32), "depth": (made.depth_m, np.float32), "error": (made.error_m, np.float32),
-                  "code": (made.results.code, np.uint16), "confidence": (made.confidence, np.uint16)}
+        shared: dict[str, tuple[npt.NDArray[Any], type]] = {
+            "truth": (frame.truth_m, np.float32), "depth": (made.depth_m, np.float32), "error": (made.error_m, np.float32),
+            "code": (made.results.code, np.uint16), "confidence": (made.confidence, np.uint16)}
         kept = {name: array.copy() for name, (array, _) in shared.items()}
         for name, (array, kind) in shared.items():
             self.assertEqual((array.shape, array.dtype), ((5, 7), np.dtype(kind)), name)
@@ -54,7 +56,7 @@ class ArrayTest(unittest.TestCase):
     def test_column_events_are_those_of_the_stream(self) -> None:
         photons = dtof.photons(dtof.Scene("room", columns=3, rows=4), dtof.Sensor("thesis"))
         events = photons.events()
-        bounds = {}
+        timestamps: dict[int, npt.NDArray[np.uint16]] = {}
         for column in range(3):
             one = photons.column(column)
             of_column = events["column"] == column
@@ -62,9 +64,9 @@ class ArrayTest(unittest.TestCase):
             np.testing.assert_array_equal(one.acquisition, events["acquisition"][of_column])
             np.testing.assert_array_equal(np.repeat(np.arange(4), np.diff(one.row_bounds)), events["row"][of_column])
             self.assertEqual(len(one), int(of_column.sum()))
-            bounds[column] = one.timestamp
-        self.assertEqual(bounds[0].dtype, np.uint16)
-        self.assertFalse(bounds[0].flags.owndata)
+            timestamps[column] = one.timestamp
+        self.assertEqual(timestamps[0].dtype, np.uint16)
+        self.assertFalse(timestamps[0].flags.owndata)
         with self.assertRaisesRegex(ValueError, "column 3 is outside 0 to 2"):
             photons.column(3)
 
@@ -73,21 +75,23 @@ class ArrayTest(unittest.TestCase):
         events = photons.events()
         # Events of one pixel and acquisition keep their order.
         keys: npt.NDArray[np.int64] = (events["column"].astype(np.int64) * 4 + events["row"]) * 3333 + events["acquisition"]
-        first_of_acquisition = np.argsort(np.random.default_rng(1).permutation(keys.max() + 1)[keys], kind="stable")
-        mixed = {name: array[first_of_acquisition] for name, array in events.items()}
-        own = dtof.event_list(**mixed, columns=5, rows=4, acquisitions=3333)
+        mixed = np.argsort(np.random.default_rng(1).permutation(keys.max() + 1)[keys], kind="stable")
+        own = dtof.event_list(events["column"][mixed], events["row"][mixed], events["acquisition"][mixed], events["timestamp"][mixed],
+                              columns=5, rows=4, acquisitions=3333)
         for name in ("sifh", "hispointer", "poolpointer"):
             np.testing.assert_array_equal(dtof.read_out(own, name).code, dtof.read_out(photons, name).code)
 
     def test_events_that_are_none(self) -> None:
-        good = {"column": [0, 1], "row": [0, 0], "acquisition": [5, 5], "timestamp": [10, 20]}
-        size = {"columns": 2, "rows": 1, "acquisitions": 6}
+        good: dict[str, Any] = {"column": [0, 1], "row": [0, 0], "acquisition": [5, 5], "timestamp": [10, 20]}
+        size: dict[str, Any] = {"columns": 2, "rows": 1, "acquisitions": 6}
         dtof.event_list(**good, **size)
-        for change, sentence in [({"column": [0, 2]}, r"column\[1\]: 2 is outside 0 to 1"), ({"row": [0, -1]}, r"row\[1\]: -1 is outside"),
-                                 ({"acquisition": [6, 5]}, r"acquisition\[0\]: 6 is outside 0 to 5"),
-                                 ({"timestamp": [10, 1024]}, r"timestamp\[1\]: 1024 is outside 0 to 1023"),
-                                 ({"timestamp": [10]}, "one axis of 2 numbers is wanted"),
-                                 ({"rows": 0}, "rows: 0 is not at least 1"), ({"np": 17}, "np: 17 is outside 1 to 16")]:
+        cases: list[tuple[dict[str, Any], str]] = [
+            ({"column": [0, 2]}, r"column\[1\]: 2 is outside 0 to 1"), ({"row": [0, -1]}, r"row\[1\]: -1 is outside"),
+            ({"acquisition": [6, 5]}, r"acquisition\[0\]: 6 is outside 0 to 5"),
+            ({"timestamp": [10, 1024]}, r"timestamp\[1\]: 1024 is outside 0 to 1023"),
+            ({"timestamp": [10]}, "one axis of 2 numbers is wanted"),
+            ({"rows": 0}, "rows: 0 is not at least 1"), ({"np": 17}, "np: 17 is outside 1 to 16")]
+        for change, sentence in cases:
             with self.subTest(sentence), self.assertRaisesRegex(ValueError, sentence):
                 dtof.event_list(**(good | size | change))
         with self.assertRaisesRegex(ValueError, "acquisition 3 has more than 2 events"):
@@ -103,8 +107,10 @@ class ArrayTest(unittest.TestCase):
         photons = dtof.photons(dtof.Scene("room", columns=6, rows=5), dtof.Sensor("thesis"))
         whole = dtof.read_out(photons, "fifh").code
         np.testing.assert_array_equal(dtof.read_out(photons, "fifh", columns=[4, 1], rows=(2, 4)).code, whole[2:4][:, [1, 4]])
-        for region, sentence in [({"columns": [6]}, "column 6 is outside 0 to 5"), ({"columns": [1, 1]}, "named twice"),
-                                 ({"columns": []}, "none is named"), ({"rows": (3, 3)}, "rows: 3 to below 3"), ({"rows": (0, 6)}, "rows:")]:
+        cases: list[tuple[dict[str, Any], str]] = [
+            ({"columns": [6]}, "column 6 is outside 0 to 5"), ({"columns": [1, 1]}, "named twice"),
+            ({"columns": []}, "none is named"), ({"rows": (3, 3)}, "rows: 3 to below 3"), ({"rows": (0, 6)}, "rows:")]
+        for region, sentence in cases:
             with self.subTest(sentence), self.assertRaisesRegex(ValueError, sentence):
                 dtof.read_out(photons, "fifh", **region)
 

@@ -14,8 +14,8 @@ from pathlib import Path
 from programs import ROOT
 
 EXAMPLES = ROOT / "examples" / "python"
-PICTURES = {"first_picture": ["first_picture.png", "first_picture_pixel.png"], "own_sensor": ["own_sensor.png"], "own_data": ["own_data.png"],
-            "point_cloud_mcap": []}  # what it writes: test_mcap.py
+PICTURES: dict[str, list[str]] = {"first_picture": ["first_picture.png", "first_picture_pixel.png"], "own_sensor": ["own_sensor.png"],
+                                 "own_data": ["own_data.png"], "point_cloud_mcap": []}  # what it writes: test_mcap.py
 PAGE = ROOT / "docs" / "user" / "python.md"
 SECONDS = 60.0
 

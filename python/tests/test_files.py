@@ -4,6 +4,7 @@
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -81,7 +82,8 @@ class FilesTest(unittest.TestCase):
                      self.out)
         read = dtof.read_results(self.out / "coarsehistogram.csv")
         results = dtof.frame(dtof.Scene("sky", columns=9, rows=6), readouts="coarsehistogram")["coarsehistogram"].results
-        for field in ("code", "fraction", "confidence"):
+        fields: tuple[Literal["code", "fraction", "confidence"], ...] = ("code", "fraction", "confidence")
+        for field in fields:
             np.testing.assert_array_equal(read[field].reshape(6, 9), getattr(results, field))
         self.assertGreater(len(np.unique(read["fraction"])), 1)
         self.assertEqual(read["column"][:3].tolist(), [0, 1, 2])
@@ -97,9 +99,9 @@ class FilesTest(unittest.TestCase):
             with self.subTest(sentence), self.assertRaisesRegex(ValueError, sentence):
                 call()
         self.assertFalse((self.out / "x").exists())
-        for call in (lambda: dtof.read_recording(str(self.out / "none.csv")), lambda: dtof.read_depth(str(self.out / "none.npy"))):
+        for refused in (lambda: dtof.read_recording(str(self.out / "none.csv")), lambda: dtof.read_depth(str(self.out / "none.npy"))):
             with self.assertRaisesRegex(ValueError, "none"):
-                call()
+                refused()
 
 
 if __name__ == "__main__":

@@ -3,7 +3,9 @@
 
 import tempfile
 import unittest
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -75,11 +77,12 @@ class ProgramTest(unittest.TestCase):
                      "--slots", 3, "--np", 9, "--nb", 4, "--window-centred", "--code-gate", 5, 400)
 
     def test_template_of_the_sensors_own_light(self) -> None:
-        size = ["--array-columns", COLUMNS, "--array-rows", ROWS]
-        for condition, changed, options in [
+        size: list[object] = ["--array-columns", COLUMNS, "--array-rows", ROWS]
+        cases: list[tuple[str, dict[str, Any], list[object]]] = [
                 ("thesis+glass", {}, []), ("thesis+fog", {"slots": 3, "np": 11}, ["--slots", 3, "--np", 11]),
                 ("thesis+fog", {"acquisitions": 900, "dead_time_ns": 25.0}, ["--acquisitions", 900, "--dead-time", 25]),
-                ("thesis+glass", {"time_gate_ns": (1.0, 40.0), "binning": 2}, ["--gate", 1, 40, "--binning", 2])]:
+                ("thesis+glass", {"time_gate_ns": (1.0, 40.0), "binning": 2}, ["--gate", 1, 40, "--binning", 2])]
+        for condition, changed, options in cases:
             with self.subTest(condition, options=options):
                 sensor = dtof.Sensor(condition).replace(**changed)
                 told = [dtof.Readout(name, sensor, template=True) for name in ("poolpointer", "poolpointer-lean")]
@@ -152,10 +155,11 @@ class ProgramTest(unittest.TestCase):
             dtof.frame(scene, readouts=["fifh"], table=tables)
 
     def test_refusals_are_the_programs(self) -> None:
-        cases = [(lambda: dtof.frame(sensor="thesys"), ["--sensor", "thesys"]),
-                 (lambda: dtof.frame("rum"), ["--scene", "rum"]),
-                 (lambda: dtof.frame(readouts=["sfih"]), ["--readout", "sfih"]),
-                 (lambda: dtof.Readout("sifh", nb=11), ["--readout", "sifh", "--nb", 11])]
+        cases: list[tuple[Callable[[], object], list[object]]] = [
+            (lambda: dtof.frame(sensor="thesys"), ["--sensor", "thesys"]),
+            (lambda: dtof.frame("rum"), ["--scene", "rum"]),
+            (lambda: dtof.frame(readouts=["sfih"]), ["--readout", "sfih"]),
+            (lambda: dtof.Readout("sifh", nb=11), ["--readout", "sifh", "--nb", 11])]
         for call, options in cases:
             with self.assertRaises(ValueError) as raised:
                 call()

@@ -3,6 +3,7 @@
 
 import tomllib
 import unittest
+from typing import Any
 
 import numpy as np
 
@@ -28,22 +29,24 @@ class ReadoutTest(unittest.TestCase):
                 if parameter == "np" or (KNOWN[name]["kind"] == "pool" and parameter == "count_width"):
                     continue  # others follow from the one, the other has one value
                 other = 1 - value if parameter == "window_centred" else value - 1 if value > 2 else value + 1
-                self.assertEqual(dtof.Readout(name, **{parameter: other}).parameters[parameter], other, f"{name} {parameter}")
-                self.assertNotEqual(dtof.Readout(name, **{parameter: other}), dtof.Readout(name))
+                changed: dict[str, Any] = {parameter: other}
+                self.assertEqual(dtof.Readout(name, **changed).parameters[parameter], other, f"{name} {parameter}")
+                self.assertNotEqual(dtof.Readout(name, **changed), dtof.Readout(name))
 
     def test_defaults_follow_from_np_and_the_sensor(self) -> None:
         self.assertEqual(dtof.Readout("sifh", np=12).parameters["nb"], 7)
         self.assertEqual(dtof.Readout("hispointer", dtof.Sensor("thesis").replace(np=11)).parameters["guard"], 92)
 
     def test_wrong_names_and_values(self) -> None:
-        for arguments, keywords, sentence in [
+        cases: list[tuple[tuple[str], dict[str, Any], str]] = [
                 (("sifj",), {}, "unknown read-out 'sifj'; did you mean 'sifh'?"),
                 (("sifh",), {"guard": 3}, "sifh has no parameter "),
                 (("sifh",), {"nb": 40}, "NB must be 1 to NP, not 40"),
                 (("sifh",), {"nb": 4.5}, "nb: 4.5 is no whole number"),
                 (("sifh",), {"nb": "4"}, "nb: '4' is no whole number"),
                 (("sifh",), {"nb": 1 << 40}, "nb: 1099511627776 is no whole number of 32 bits"),
-                (("sifh",), {"window_centred": 2}, "WINDOW_CENTRED must be 0 or 1, is 2")]:
+                (("sifh",), {"window_centred": 2}, "WINDOW_CENTRED must be 0 or 1, is 2")]
+        for arguments, keywords, sentence in cases:
             with self.subTest(sentence), self.assertRaises(ValueError) as raised:
                 dtof.Readout(*arguments, **keywords)
             self.assertTrue(str(raised.exception).startswith(sentence), str(raised.exception))
@@ -64,12 +67,13 @@ class ReadoutTest(unittest.TestCase):
 
     def test_templates_that_are_refused(self) -> None:
         dark = dtof.event_list([], [], [], [], columns=2, rows=1, acquisitions=100)
-        for name, sensor, template, sentence in [
+        cases: list[tuple[str, str, bool | dtof.Photons | list[int], str]] = [
                 ("sifh", "thesis+fog", True, "template has no effect: sifh has no TEMPLATE"),
                 ("poolpointer", "thesis", True, "template has no effect: the sensor has neither cover glass nor fog"),
                 ("poolpointer", "thesis", [1] * 31, "template: 32 entries are wanted, not 31"),
                 ("poolpointer", "thesis", [256] * 32, "template: entries are 0 to 255, not 256"),
-                ("poolpointer", "thesis", dark, "a template needs a column of at least two rows")]:
+                ("poolpointer", "thesis", dark, "a template needs a column of at least two rows")]
+        for name, sensor, template, sentence in cases:
             with self.subTest(sentence), self.assertRaises(ValueError) as raised:
                 dtof.Readout(name, dtof.Sensor(sensor), template=template)
             self.assertEqual(str(raised.exception), sentence)
@@ -93,7 +97,7 @@ class ReadoutTest(unittest.TestCase):
 
     def test_table_of_own_measurements(self) -> None:
         distances = np.linspace(1.0, 4.0, 7)
-        table = dtof.LookupTable.fit(distances.tolist(), np.outer(distances, np.full(9, 100.0)), 0.0)
+        table = dtof.LookupTable.fit([float(distance) for distance in distances], np.outer(distances, np.full(9, 100.0)), 0.0)
         np.testing.assert_allclose(table.distance([150.0, 333.0]), [1.5, 3.33])
         with self.assertRaisesRegex(ValueError, "two axes are wanted"):
             dtof.LookupTable.fit([1.0, 2.0], np.zeros(2))

@@ -48,6 +48,9 @@ class Names(unittest.TestCase):
 class BesideAUser(unittest.TestCase):
     """A user's modules come first and last in the list of files. Each tool reports a module of two definitions, so a clash does not pass."""
 
+    user: Path
+    clashing: Path
+
     @classmethod
     def setUpClass(cls) -> None:
         folder = tempfile.TemporaryDirectory()

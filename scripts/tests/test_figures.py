@@ -289,10 +289,8 @@ class Commands(Project):
         self.write("README.md", "text\n")
         self.commit()
         self.measure()
-        for where in (mock.patch.object(command, "ROOT", self.root),
-                      mock.patch.object(command.update_readme, "quoted_reports", lambda root: set())):
-            where.start()
-            self.addCleanup(where.stop)
+        self.enterContext(mock.patch.object(command, "ROOT", self.root))
+        self.enterContext(mock.patch.object(command.update_readme, "quoted_reports", lambda root: set()))
 
     def run_command(self, action, **options: object) -> tuple[int, str]:
         said = io.StringIO()

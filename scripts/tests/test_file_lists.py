@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+from collections.abc import Set
 from pathlib import Path
 
 import yaml
@@ -69,7 +70,7 @@ def schema_errors(core: dict) -> list[str]:
 OWN_SRAMS = ["hdl/technology/fpga/dtof_sram_1rw.sv", "hdl/technology/fpga/dtof_sram_1r1w.sv", "hdl/technology/fpga/dtof_clock_gate.sv"]  # for one's own
 
 
-def resolved(names: list[str], flags: set[str]) -> list[str]:
+def resolved(names: list[str], flags: Set[str]) -> list[str]:
     """A list of CAPI2 under these flags."""
     found = []
     for name in names:
@@ -84,10 +85,12 @@ def resolved(names: list[str], flags: set[str]) -> list[str]:
 class Target:
     """A target of the core in a folder that has nothing but its files."""
 
-    def __init__(self, name: str, folder: str, flags: set[str] = frozenset()):
+    def __init__(self, name: str, folder: str, flags: Set[str] = frozenset()) -> None:
         self.target = CORE["targets"][name]
         self.folder = folder
-        self.files, self.includes, self.waivers = [], set(), []
+        self.files: list[str] = []
+        self.includes: set[str] = set()
+        self.waivers: list[str] = []
         for fileset in resolved(self.target["filesets"], flags):
             for entry in CORE["filesets"][fileset]["files"]:
                 file, options = next(iter(entry.items())) if isinstance(entry, dict) else (entry, {})
@@ -112,10 +115,10 @@ class Target:
 
 
 class FuseSoc(unittest.TestCase):
-    def test_the_core_keeps_capi2s_schema(self):
+    def test_the_core_keeps_capi2s_schema(self) -> None:
         self.assertEqual(schema_errors(CORE), [])
 
-    def test_faults_against_the_schema_are_seen(self):
+    def test_faults_against_the_schema_are_seen(self) -> None:
         for change, says in ((lambda core: core.pop("name"), "core: no key 'name'"),
                              (lambda core: core.update(licence="x"), "core: unknown key 'licence'"),
                              (lambda core: core["parameters"]["NP"].update(datatype="integer"), "parameter NP: datatype is 'integer'"),
@@ -130,16 +133,16 @@ class FuseSoc(unittest.TestCase):
             change(core)
             self.assertEqual(schema_errors(core), [says])
 
-    def test_what_a_target_names_is_there(self):
+    def test_what_a_target_names_is_there(self) -> None:
         self.assertEqual(set(CORE["targets"]), {"default", "lint", "sim", "synth"})
         for name, target in CORE["targets"].items():
             self.assertLessEqual({entry.split("=")[0] for entry in target.get("parameters", [])}, CORE["parameters"].keys(), name)
-            for flags in (set(), {file_lists.OWN_SRAMS}):
+            for flags in (frozenset[str](), frozenset({file_lists.OWN_SRAMS})):
                 self.assertLessEqual(set(resolved(target["filesets"], flags)), CORE["filesets"].keys(), name)
             self.assertEqual("tools" in target, name != "default")
             self.assertEqual(list(target.get("tools", {})), [target["default_tool"]] if "default_tool" in target else [])
 
-    def test_lint_reads_in_verilator_with_its_parameters(self):
+    def test_lint_reads_in_verilator_with_its_parameters(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             target = Target("lint", folder)
             result = target.lint()
@@ -148,7 +151,7 @@ class FuseSoc(unittest.TestCase):
             declared = re.findall(r"^ +parameter int (\w+) ", text, re.MULTILINE)
             self.assertEqual(sorted(target.target["parameters"]), sorted(declared))
 
-    def test_own_srams_take_the_place_of_the_stand_ins(self):
+    def test_own_srams_take_the_place_of_the_stand_ins(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             target = Target("lint", folder, {file_lists.OWN_SRAMS})
             self.assertFalse([file for file in target.files if file.startswith("hdl/technology/")])
@@ -162,7 +165,7 @@ class FuseSoc(unittest.TestCase):
             target.target["parameters"].append("CLOCK_WAITS=0")
             self.assertEqual(target.lint().returncode, 0)
 
-    def test_sim_simulates_a_frame(self):
+    def test_sim_simulates_a_frame(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             target = Target("sim", folder)
             top = target.target["toplevel"]
@@ -174,7 +177,7 @@ class FuseSoc(unittest.TestCase):
             self.assertEqual(result.stdout.splitlines()[-1], "PASS")
             self.assertIn("200 acquisitions", result.stdout)
 
-    def test_synth_reads_in_yosys(self):
+    def test_synth_reads_in_yosys(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             target = Target("synth", folder)
             self.assertIn("hdl/technology/fpga/dtof_sram_1rw.sv", target.files)
@@ -186,7 +189,7 @@ class FuseSoc(unittest.TestCase):
 
 
 class Bender(unittest.TestCase):
-    def test_its_files_are_those_of_the_list(self):
+    def test_its_files_are_those_of_the_list(self) -> None:
         package, technology, rest = file_lists.split((HDL / "dtof.f").read_text(encoding="utf-8"))
         self.assertEqual([file for source in BENDER["sources"] for file in source["files"]], [f"hdl/{file}" for file in package + technology + rest])
         self.assertEqual([source["files"] for source in BENDER["sources"] if "target" in source],
@@ -197,7 +200,7 @@ class Bender(unittest.TestCase):
 
 
 class Lists(unittest.TestCase):
-    def test_the_list_without_srams_reads_as_its_head_says(self):
+    def test_the_list_without_srams_reads_as_its_head_says(self) -> None:
         text = (HDL / "dtof_no_srams.f").read_text(encoding="utf-8")
         found = re.search(r"^// +(verilator .*)$", text, re.MULTILINE)
         assert found is not None
@@ -208,7 +211,7 @@ class Lists(unittest.TestCase):
                                     stderr=subprocess.STDOUT, check=False)  # fmt: skip
             self.assertEqual(result.returncode == 0, there, result.stdout)
 
-    def test_a_list_without_technology_is_refused(self):
+    def test_a_list_without_technology_is_refused(self) -> None:
         with self.assertRaisesRegex(FlowError, "no technology"):
             file_lists.split("common/dtof_pkg.sv\ntop/dtof_array.sv\n")
 
@@ -229,7 +232,7 @@ proc set_property {name value object} { puts "$name $value $object" }
             return subprocess.run(["yosys", "-Q", "-T", "-c", str(script)], text=True, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, check=False)  # fmt: skip
 
-    def test_it_reads_all_rtl_with_memories_of_an_fpga(self):
+    def test_it_reads_all_rtl_with_memories_of_an_fpga(self) -> None:
         result = self.sourced("dtof_read_rtl")
         self.assertEqual(result.returncode, 0, result.stdout)
         package, technology, rest = file_lists.split((HDL / "dtof.f").read_text(encoding="utf-8"))
@@ -242,7 +245,7 @@ proc set_property {name value object} { puts "$name $value $object" }
         self.assertEqual([includes], [f"{HDL}/{name}" for name in named])
         self.assertTrue((Path(includes) / "dtof_macros.svh").is_file())
 
-    def test_a_folder_without_memories_is_refused(self):
+    def test_a_folder_without_memories_is_refused(self) -> None:
         result = self.sourced(f"dtof_read_rtl {ROOT}/docs")
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("dtof_sram_1rw.sv is not there", result.stdout)

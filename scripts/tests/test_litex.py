@@ -10,6 +10,7 @@ import sys
 import tempfile
 import types
 import unittest
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from unittest import mock
 
@@ -57,7 +58,7 @@ class ResetSignal(Text):
 
 
 class Instance:
-    def __init__(self, of: str, **items):
+    def __init__(self, of: str, **items: int | Signal | Text):
         self.of, self.items = of, items
 
     def verilog(self) -> str:
@@ -71,24 +72,37 @@ class Instance:
         return f"{self.of} #(\n  {', '.join(kinds['p'])}\n) u_{self.of} (\n  {pins}\n);\n"
 
 
-def items_of(instance: Instance):
+def items_of(instance: Instance) -> list[tuple[str, int | Signal | Text]]:
     return sorted(instance.items.items())
 
 
+class Collector:
+    """What has been added with +=, in this order."""
+
+    def __init__(self) -> None:
+        self.instances: list[Instance] = []
+
+    def __iadd__(self, instance: Instance) -> "Collector":
+        self.instances.append(instance)
+        return self
+
+    def __iter__(self) -> Iterator[Instance]:
+        return iter(self.instances)
+
+    def __getitem__(self, index: int) -> Instance:
+        return self.instances[index]
+
+
 class LiteXModule:
+    _instances: Collector
+
     @property
-    def specials(self):
+    def specials(self) -> Collector:
         return self.__dict__.setdefault("_instances", Collector())
 
     @specials.setter
-    def specials(self, value):
+    def specials(self, value: Collector) -> None:
         assert value is self._instances
-
-
-class Collector(list):
-    def __iadd__(self, instance: Instance) -> "Collector":
-        self.append(instance)
-        return self
 
 
 class Endpoint:
@@ -178,12 +192,14 @@ class StandIns(unittest.TestCase):
         return self.module.DtofSubsystem(platform, *arguments, **keywords), platform
 
     def test_ports_and_parameters_are_the_rtls(self) -> None:
-        for readout, settings in (("hispointer", {"sram_num": 3, "pixels_per_sram": 5}), ("ezpointer", {"np": 9, "technology": "behavioural"}),
-                                  ("poolpointer-lean", {"sram_num": 4, "pixels_per_sram": 16, "second_target": 1})):  # fmt: skip
+        cases: list[tuple[str, dict[str, str | int]]] = [
+            ("hispointer", {"sram_num": 3, "pixels_per_sram": 5}), ("ezpointer", {"np": 9, "technology": "behavioural"}),
+            ("poolpointer-lean", {"sram_num": 4, "pixels_per_sram": 16, "second_target": 1})]
+        for readout, settings in cases:
             with self.subTest(readout=readout):
                 self.assertEqual(lint(*self.made(readout, settings)), "")
 
-    def made(self, readout: str, settings: dict[str, int]) -> tuple[str, Platform]:
+    def made(self, readout: str, settings: Mapping[str, str | int]) -> tuple[str, Platform]:
         dtof, platform = self.make(readout=readout, **settings)
         return verilog(dtof), platform
 
@@ -212,13 +228,16 @@ class StandIns(unittest.TestCase):
             self.assertIn(f"{folder}/dtof_clock_gate.sv", platform.files)
 
     def test_an_fpga_has_no_clock_gate(self) -> None:
-        for settings, expected in (({}, 0), ({"technology": "behavioural"}, None), ({"clock_waits": 1}, 1)):
+        cases: list[tuple[dict[str, str | int], int | None]] = [({}, 0), ({"technology": "behavioural"}, None), ({"clock_waits": 1}, 1)]
+        for settings, expected in cases:
             dtof, _ = self.make(**settings)
             chosen = dtof.specials[1].items.get("p_CLOCK_WAITS")
             self.assertEqual(chosen and chosen.value, expected)
 
     def test_names_that_are_not_there_are_refused(self) -> None:
-        for arguments, says in (({"readout": "hisponter"}, "no read-out is called"), ({"columns": 4}, "no parameter COLUMNS")):
+        cases: list[tuple[dict[str, str | int], str]] = [({"readout": "hisponter"}, "no read-out is called"),
+                                                         ({"columns": 4}, "no parameter COLUMNS")]
+        for arguments, says in cases:
             with self.assertRaisesRegex(ValueError, says):
                 self.make(**arguments)
 

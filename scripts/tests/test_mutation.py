@@ -98,7 +98,7 @@ def changes(mutants: list[Mutant]) -> set[str]:
 
 
 class Operators(unittest.TestCase):
-    def test_cpp(self):
+    def test_cpp(self) -> None:
         found = changes(cpp_operators.mutants("sample.cpp", CPP_SAMPLE))
         for change in ("3 -> 3 + 1", "a < b -> a <= b", "a < b && b != 0 -> a < b || b != 0", "b != 0 -> b == 0",
                        "a < b && b != 0 -> !(a < b && b != 0)", "std::max(a, b) -> std::min(a, b)",
@@ -107,11 +107,11 @@ class Operators(unittest.TestCase):
                        "a == b ? a + b : b -> a == b ? (b) : (a + b)"):  # fmt: skip
             self.assertIn(change, found)
 
-    def test_cpp_leaves_texts_types_and_checks_alone(self):
+    def test_cpp_leaves_texts_types_and_checks_alone(self) -> None:
         lines = {mutant.line for mutant in cpp_operators.mutants("sample.cpp", CPP_SAMPLE)}
         self.assertFalse(lines & {1, 2, 4, 5, 7, 11}, lines)
 
-    def test_rtl(self):
+    def test_rtl(self) -> None:
         found = changes(rtl_operators.mutants("sample.sv", RTL_SAMPLE))
         for change in ("7 -> (7 - 1)", "count_q <= 4'd9 -> count_q < 4'd9", "4'd9 -> 4'd10",
                        "in_i[0] && (count_q <= 4'd9) -> 1'b0", "in_i[0] && (count_q <= 4'd9) -> 1'b1",
@@ -120,11 +120,11 @@ class Operators(unittest.TestCase):
                        "4'd1: count_q <= count_q + 1'b1; 4'd2 -> 4'd2: count_q <= count_q + 1'b1; 4'd1"):  # fmt: skip
             self.assertIn(change, found)
 
-    def test_rtl_leaves_headers_widths_and_checks_alone(self):
+    def test_rtl_leaves_headers_widths_and_checks_alone(self) -> None:
         lines = {mutant.line for mutant in rtl_operators.mutants("sample.sv", RTL_SAMPLE)}
         self.assertFalse(lines & {3, 5, 6, 9, 11, 13, 14}, lines)
 
-    def test_python(self):
+    def test_python(self) -> None:
         mutants = python_operators.mutants("sample.py", PYTHON_SAMPLE)
         found = changes(mutants)
         for change in ("0.5 -> (0.5 * 1.1)", "0.5 -> (0.5 / 2)", "2 -> (2 + 1)", "a < b -> a <= b",
@@ -139,18 +139,18 @@ class Operators(unittest.TestCase):
         for mutant in mutants:
             compile(PYTHON_SAMPLE[: mutant.begin] + mutant.mutated + PYTHON_SAMPLE[mutant.end :], mutant.change, "exec")
 
-    def test_python_leaves_documentation_messages_types_and_imports_alone(self):
+    def test_python_leaves_documentation_messages_types_and_imports_alone(self) -> None:
         mutants = python_operators.mutants("sample.py", PYTHON_SAMPLE)
         self.assertFalse({mutant.line for mutant in mutants} & {1, 2, 3, 15, 16})
         self.assertEqual({mutant.operator for mutant in mutants if mutant.line == 11}, {"statement"})
 
-    def test_names_have_partners_as_they_are_written(self):
+    def test_names_have_partners_as_they_are_written(self) -> None:
         self.assertEqual(python_operators.other_names("hold_slack"), ["setup_slack"])
         self.assertEqual(python_operators.other_names("SETUP_NS"), ["HOLD_NS"])
         self.assertEqual(set(python_operators.other_names("slow")), {"typical", "fast"})
         self.assertEqual(python_operators.other_names("slower"), [])
 
-    def test_constraints(self):
+    def test_constraints(self) -> None:
         found = {(mutant.line, mutant.change) for mutant in sdc_operators.mutants("sample.sdc", SDC_SAMPLE)}
         self.assertEqual(found, {
             (2, "0.30 -> 0.33"), (2, "0.30 -> 0.15"), (3, "all_inputs -> all_outputs"), (4, "set_input_delay -> set_output_delay"),
@@ -159,13 +159,13 @@ class Operators(unittest.TestCase):
 
 
 class Drawing(unittest.TestCase):
-    def test_one_mutant_per_statement_and_the_same_for_a_seed(self):
+    def test_one_mutant_per_statement_and_the_same_for_a_seed(self) -> None:
         mutants = cpp_operators.mutants("sample.cpp", CPP_SAMPLE)
         first, again = (list(draw(mutants, 7)) for _ in range(2))
         self.assertEqual(first, again)
         self.assertEqual(len({mutant.place for mutant in first}), len(first))
 
-    def test_other_statements_may_change(self):
+    def test_other_statements_may_change(self) -> None:
         changed = CPP_SAMPLE.replace("++a;", "++a; b = 0;")
         first, second = (
             {mutant.change for mutant in draw(cpp_operators.mutants("sample.cpp", text), 7)}
@@ -173,14 +173,14 @@ class Drawing(unittest.TestCase):
         )
         self.assertLess(first, second)
 
-    def test_refused_mutants_are_replaced(self):
+    def test_refused_mutants_are_replaced(self) -> None:
         selection = Selection([(cpp_operators.mutants("sample.cpp", CPP_SAMPLE), 3)], 7)
         before = selection.mutants
         selection.refuse({before[0]})
         self.assertEqual(len(selection.mutants), 3)
         self.assertNotIn(before[0], selection.mutants)
 
-    def test_refused_mutants_are_found_where_the_compiler_writes_whole_paths(self):
+    def test_refused_mutants_are_found_where_the_compiler_writes_whole_paths(self) -> None:
         mutants = cpp_operators.mutants("sample.cpp", CPP_SAMPLE)
         schemata = with_mutants(CPP_SAMPLE, {mutants[0]: 1})
         line = min(schemata.lines[mutants[0]])
@@ -202,7 +202,7 @@ int main() { return unchecked(0) == 5 || twice(3) != 6 ? 1 : 0; }
 class ReportOfCpp(unittest.TestCase):
     """A test program that checks one function and not the other: the report must say so."""
 
-    def test_survivor_is_reported_as_survivor(self):
+    def test_survivor_is_reported_as_survivor(self) -> None:
         mutants = cpp_operators.mutants("models/dtof/core/tested.cpp", TESTED)
         chosen = [self.find(mutants, change) for change in ("2 -> 2 + 1", "value * kStep -> value / kStep",
                                                             "value + 1 -> value - 1")]  # fmt: skip
@@ -230,7 +230,7 @@ class ReportOfCpp(unittest.TestCase):
     def find(mutants: list[Mutant], change: str) -> Mutant:
         return next(mutant for mutant in mutants if mutant.change == change)
 
-    def test_explanation_needs_the_same_line_and_changes_no_killed_mutant(self):
+    def test_explanation_needs_the_same_line_and_changes_no_killed_mutant(self) -> None:
         mutant = cpp_operators.mutants("tested.cpp", TESTED)[0]
         survived, killed = (Verdict(mutant, state, "") for state in ("survived", "killed"))
         for source, above, state in ((mutant.source, None, "argued equivalent"),
@@ -241,7 +241,7 @@ class ReportOfCpp(unittest.TestCase):
             self.assertEqual(explain(survived, known).state, state)
             self.assertEqual(explain(killed, known), killed)
 
-    def test_an_explanation_outlives_the_line_that_it_is_about_but_no_line_that_is_there(self):
+    def test_an_explanation_outlives_the_line_that_it_is_about_but_no_line_that_is_there(self) -> None:
         mutant = cpp_operators.mutants("tested.cpp", TESTED)[0]
         argued = Verdict(mutant, "argued equivalent", "because")
         with tempfile.TemporaryDirectory() as name:
@@ -284,7 +284,7 @@ endmodule
 
 
 class ReportOfRtl(unittest.TestCase):
-    def test_survivor_dead_code_and_killed(self):
+    def test_survivor_dead_code_and_killed(self) -> None:
         with tempfile.TemporaryDirectory() as name:
             tree = Path(name)
             file = "hdl/control/toy.sv"
@@ -303,7 +303,7 @@ class ReportOfRtl(unittest.TestCase):
                 self.assertEqual(rtl.judge(mutant, TOY, [bench], tree).state, state, change)
             self.assertEqual((tree / file).read_text(), TOY)
 
-    def test_proof_of_equivalence(self):
+    def test_proof_of_equivalence(self) -> None:
         with tempfile.TemporaryDirectory() as name:
             tree = Path(name)
             file = "hdl/control/toy.sv"
@@ -316,25 +316,25 @@ class ReportOfRtl(unittest.TestCase):
 
 
 class Remembered(unittest.TestCase):
-    def test_every_one_is_still_in_its_source(self):
+    def test_every_one_is_still_in_its_source(self) -> None:
         for folder in ("models", "hdl", synthesis.PACKAGE):
             self.assertTrue(remembered.load(mutate.ROOT, folder), folder)
 
 
 class Subsystem(unittest.TestCase):
-    def test_every_module_has_mutants_but_those_that_are_tested_elsewhere(self):
+    def test_every_module_has_mutants_but_those_that_are_tested_elsewhere(self) -> None:
         selection = subsystem.select(subsystem.ROOT, 10000, 1)
         found = {Path(mutant.file).name for mutant in selection.mutants}
         there = {path.name for path in (subsystem.ROOT / subsystem.FOLDER).glob("*.sv")}
         self.assertEqual(there - found, set(subsystem.ELSEWHERE))
         self.assertGreater(len(selection.mutants), 200)
 
-    def test_the_first_test_that_fails_kills(self):
+    def test_the_first_test_that_fails_kills(self) -> None:
         output = "x.cpp:3: Failure\n[  FAILED  ] All/Faults.End/ez_3x3, where GetParam() = ez (5 ms)\n[  FAILED  ] 1 test\n"
         self.assertEqual(subsystem.killer(output), "subsystem_test: All/Faults.End/ez_3x3")
         self.assertEqual(subsystem.killer("Aborted\n"), "subsystem_test ends early")
 
-    def test_a_mutant_is_judged_by_the_tests_and_taken_back(self):
+    def test_a_mutant_is_judged_by_the_tests_and_taken_back(self) -> None:
         mutant = Mutant(file="hdl/subsystem/a.sv", line=1, begin=11, end=12, original="b", mutated="c", operator="x", source="",
                         above="", place=0)  # fmt: skip
         with tempfile.TemporaryDirectory() as folder:
@@ -343,11 +343,11 @@ class Subsystem(unittest.TestCase):
             (tree / mutant.file).write_text("assign a = b;\n")
             build = subsystem.Build.__new__(subsystem.Build)
             build.tree, build.timeout_s = tree, 1.0
-            seen = []
-            build.compile = lambda: seen.append((tree / mutant.file).read_text())
+            seen: list[str] = []
             for by, state in (("subsystem_test: T", "killed"), (None, "survived")):
-                build.test = lambda timeout_s, by=by: by
-                self.assertEqual(build.judge(mutant).state, state)
+                with mock.patch.object(build, "compile", lambda: seen.append((tree / mutant.file).read_text())), \
+                        mock.patch.object(build, "test", return_value=by):
+                    self.assertEqual(build.judge(mutant).state, state)
             self.assertEqual(seen, ["assign a = c;\n"] * 2)
             self.assertEqual((tree / mutant.file).read_text(), "assign a = b;\n")
 
@@ -364,9 +364,9 @@ def down(a):
 FLOW_TESTS = """import unittest
 from dtof_synth import power
 class Figures(unittest.TestCase):
-    def test_both(self):
+    def test_both(self) -> None:
         self.assertEqual(power.both(1, 2), 3)
-    def test_down(self):
+    def test_down(self) -> None:
         self.assertEqual(power.down(2), 0)
 """
 
@@ -384,7 +384,7 @@ class Synthesis(unittest.TestCase):
             verdicts = synthesis.run(count, 1, root / "work", 1, [self.FILE])
         return {verdict.mutant.change: verdict for verdict in verdicts}
 
-    def test_survivors_are_reported_and_an_interrupted_run_goes_on(self):
+    def test_survivors_are_reported_and_an_interrupted_run_goes_on(self) -> None:
         with tempfile.TemporaryDirectory() as name:
             root = Path(name)
             for folder in (synthesis.PACKAGE, synthesis.TESTS):
@@ -404,14 +404,14 @@ class Synthesis(unittest.TestCase):
             with self.assertRaisesRegex(synthesis.MutationError, "test_power fails without a mutant: test_power.Figures.test_both"):
                 self.judged(root)
 
-    def test_every_file_has_mutants_and_tests(self):
+    def test_every_file_has_mutants_and_tests(self) -> None:
         synthesis.imports_of_tests.cache_clear()
         for file in synthesis.FILES:
             self.assertTrue(synthesis.operators(file, (mutate.ROOT / file).read_text(encoding="utf-8")), file)
             self.assertTrue(synthesis.tests_of(file, mutate.ROOT), file)
         self.assertEqual(synthesis.tests_of(f"{synthesis.PACKAGE}/part_costs.py", mutate.ROOT), ["test_part_costs"])
 
-    def test_another_test_makes_verdicts_old_if_it_judges_the_file(self):
+    def test_another_test_makes_verdicts_old_if_it_judges_the_file(self) -> None:
         with tempfile.TemporaryDirectory() as name:
             root = Path(name)
             (root / synthesis.TESTS).mkdir(parents=True)
@@ -424,7 +424,7 @@ class Synthesis(unittest.TestCase):
             (root / synthesis.TESTS / "small.py").write_text("x = 1")
             self.assertNotEqual(synthesis.digest(root, ["test_a"]), before)
 
-    def test_each_file_has_to_reach_nine_tenths(self):
+    def test_each_file_has_to_reach_nine_tenths(self) -> None:
         mutants = [Mutant(file=f"{file}.py", line=1, begin=0, end=1, original="a", mutated=str(number), operator="x", source="", above="",
                           place=0) for file in "ab" for number in range(20)]  # fmt: skip
         killed = [mutant.file == "a.py" or int(mutant.mutated) < 17 for mutant in mutants]
@@ -432,7 +432,7 @@ class Synthesis(unittest.TestCase):
         self.assertEqual(mutate.failures({"synthesis": verdicts}), ["b.py: 85.0 % killed, less than 90 %"])
         self.assertIn("| b.py | 20 | 17 | 0 | 0 | 3 | 85.0 % | 64 to 95 % |", report.summary({"synthesis": verdicts}))
 
-    def test_interval_of_a_share(self):
+    def test_interval_of_a_share(self) -> None:
         # Wilson's: (p + z2/2n -+ z sqrt(p(1-p)/n + z2/4n2)) / (1 + z2/n); with all of n killed it begins at n / (n + z2).
         for killed, judged, low, high in ((20, 20, 20 / 23.8415, 1), (0, 0, 0, 1), (5, 10, 0.2366, 0.7634)):
             for found, wanted in zip(report.interval(killed, judged), (low, high)):

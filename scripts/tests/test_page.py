@@ -250,6 +250,11 @@ class Pictures(Folder):
 class InTheBrowser(unittest.TestCase):
     """Chromium shows the page of this tree, moved elsewhere."""
 
+    folder: tempfile.TemporaryDirectory[str]
+    out: Path
+    wrong: list[str]
+    browser: Browser
+
     @classmethod
     def setUpClass(cls) -> None:
         cls.folder = tempfile.TemporaryDirectory()

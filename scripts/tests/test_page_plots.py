@@ -141,6 +141,9 @@ class Fetching(Tree):
 
 
 class Shown(unittest.TestCase):
+    folder: tempfile.TemporaryDirectory[str]
+    out: Path
+    wrong: list[str]
     browser: Browser
 
     @classmethod

@@ -81,6 +81,10 @@ class Indexing(unittest.TestCase):
 class InTheBrowser(unittest.TestCase):
     """The pages of this tree, moved elsewhere, opened from the disk."""
 
+    folder: tempfile.TemporaryDirectory[str]
+    out: Path
+    browser: Browser
+
     @classmethod
     def setUpClass(cls) -> None:
         cls.folder = tempfile.TemporaryDirectory()

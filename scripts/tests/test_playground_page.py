@@ -125,6 +125,7 @@ class Building(unittest.TestCase):
 
 @unittest.skipIf(missing(), missing() or "")
 class InTheBrowser(unittest.TestCase):
+    page: Path
     browser: Browser
 
     @classmethod

@@ -94,7 +94,7 @@ def of_svd(text: str) -> dict[str, Entry]:
         for field in register.iterfind("fields/field"):
             lowest, width = number(field.findtext("bitOffset", "")), number(field.findtext("bitWidth", ""))
             bits = (1 << width) - 1
-            access = field.findtext("modifiedWriteValues") or field.findtext("access", "")
+            access = field.findtext("modifiedWriteValues", "") or field.findtext("access", "")
             fields[field.findtext("name", "")] = Bits(
                 lowest, width, access, (value >> lowest) & bits if (mask >> lowest) & bits == bits else None)
         entries[register.findtext("name", "").replace("[%s]", "")] = Entry(
@@ -108,14 +108,14 @@ READERS = {RDL: of_rdl, IPXACT: of_ipxact, SVD: of_svd}
 class Maps(unittest.TestCase):
     maxDiff = None
 
-    def test_each_says_what_the_package_says(self):
+    def test_each_says_what_the_package_says(self) -> None:
         expected = of_package()
         self.assertGreater(len(expected), 30)
         for path, read in READERS.items():
             with self.subTest(map=path.name):
                 self.assertEqual(read(path.read_text(encoding="utf-8")), expected)
 
-    def test_a_change_in_a_map_is_noticed(self):
+    def test_a_change_in_a_map_is_noticed(self) -> None:
         expected = of_package()
         for path, changes in {
             RDL: (("WATCHDOG @0x06C", "WATCHDOG @0x070"), ("FIRST[11:0]", "FIRST[12:0]"), ("24'hffffff", "24'hfffffe"),
@@ -131,7 +131,7 @@ class Maps(unittest.TestCase):
                     self.assertIn(before, text)
                     self.assertNotEqual(READERS[path](text.replace(before, after, 1)), expected)
 
-    def test_only_registers_with_something_to_write_are_writable_in_the_rtl(self):
+    def test_only_registers_with_something_to_write_are_writable_in_the_rtl(self) -> None:
         text = (ROOT / "hdl/subsystem/dtof_registers_pkg.sv").read_text(encoding="utf-8")
         found = re.search(r"is_writable = (.*?);", text, re.DOTALL)
         assert found is not None
@@ -142,7 +142,7 @@ class Maps(unittest.TestCase):
             self.assertEqual(writable, any(bits.access != "read-only" for bits in entry.fields.values()), name)
 
     @unittest.skipUnless(shutil.which("xmllint"), "xmllint is not installed")
-    def test_xmllint_reads_both_xml_against_the_structure_of_their_standards(self):
+    def test_xmllint_reads_both_xml_against_the_structure_of_their_standards(self) -> None:
         for path, schema in ((IPXACT, "ipxact.rng"), (SVD, "cmsis_svd.rng")):
             with self.subTest(map=path.name):
                 command = ["xmllint", "--noout", "--relaxng", str(SCHEMAS / schema)]
@@ -155,7 +155,7 @@ class Maps(unittest.TestCase):
                 self.assertNotEqual(refused.returncode, 0, "another order of elements is legal")
 
     @unittest.skipUnless(importlib.util.find_spec("systemrdl"), "systemrdl-compiler is not installed")
-    def test_systemrdl_compiler_reads_the_map(self):
+    def test_systemrdl_compiler_reads_the_map(self) -> None:
         from systemrdl import RDLCompiler
         from systemrdl.node import RegNode
 
@@ -174,7 +174,7 @@ class Maps(unittest.TestCase):
         self.assertEqual(found, of_package())
 
     @unittest.skipUnless(importlib.util.find_spec("cmsis_svd"), "cmsis-svd is not installed")
-    def test_cmsis_svd_reads_the_map(self):
+    def test_cmsis_svd_reads_the_map(self) -> None:
         from cmsis_svd.parser import SVDParser
 
         device = SVDParser.for_xml_file(str(SVD)).get_device()
@@ -184,7 +184,7 @@ class Maps(unittest.TestCase):
                 self.assertEqual(found[f"{name}{k}" if entry.number > 1 else name], entry.offset + 4 * k)
 
     @unittest.skipUnless(importlib.util.find_spec("ipyxact"), "ipyxact is not installed")
-    def test_ipyxact_reads_the_map(self):
+    def test_ipyxact_reads_the_map(self) -> None:
         from ipyxact.ipyxact import Component
 
         component = Component()

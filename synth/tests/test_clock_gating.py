@@ -9,6 +9,7 @@ import unittest
 from pathlib import Path
 
 from dtof_synth import cell_models, clock_gating, liberty, library, netlist, run, standard_cells, tools
+from dtof_synth.library import Library
 
 SYNTH = Path(__file__).resolve().parents[1]
 # Registers of every kind: enabled together, by an enable that is active low, reset with or without the clock, too few.
@@ -32,8 +33,14 @@ endmodule
 
 
 class ClockGating(unittest.TestCase):
+    temporary: tempfile.TemporaryDirectory[str]
+    folder: Path
+    library: Library
+    gates: int
+    design: dict
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.temporary.name)
         (cls.folder / "slow.lib").write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
@@ -59,15 +66,16 @@ class ClockGating(unittest.TestCase):
         netlist.rename_parts(cls.design)
 
     @classmethod
-    def tearDownClass(cls):
+    def tearDownClass(cls) -> None:
         cls.temporary.cleanup()
 
-    def test_the_library_has_its_gate(self):
+    def test_the_library_has_its_gate(self) -> None:
         gate = self.library.clock_gate
+        assert gate is not None
         self.assertEqual((gate.name, gate.clock_pin, gate.enable_pin, gate.output_pin), ("CLKGATE_X1", "CK", "E", "GCK"))
         self.assertNotIn("CLKGATE_X1", self.library.sequential)
 
-    def test_every_large_enough_group_has_its_gates_and_nothing_else(self):
+    def test_every_large_enough_group_has_its_gates_and_nothing_else(self) -> None:
         # 24 bits need two gates for the load, three groups of five bits have one each; three bits and the array have none.
         self.assertEqual(self.gates, 5)
         column = self.design["modules"]["gated_column"]
@@ -80,14 +88,16 @@ class ClockGating(unittest.TestCase):
         self.assertAlmostEqual(found.clock_ff, 8 * standard_cells.DFF_CK_FF, places=3)
         self.assertFalse([name for name in self.design["modules"]["dtof_array"]["cells"] if "clock_gate" in name])
 
-    def test_no_gate_is_overloaded(self):
+    def test_no_gate_is_overloaded(self) -> None:
         column = self.design["modules"]["gated_column"]
-        most = self.library.clock_gate.max_load_ff * netlist.TREE_LOAD_SHARE
+        gate = self.library.clock_gate
+        assert gate is not None
+        most = gate.max_load_ff * netlist.TREE_LOAD_SHARE
         for clock in netlist.clock_nets(column) - netlist.port_clock_nets(column):
             sinks = sum(cell["connections"].get("CK") == [clock] for cell in column["cells"].values())
             self.assertLessEqual(sinks * (standard_cells.DFF_CK_FF + self.library.wire_ff_per_sink), most)
 
-    def test_registers_behind_gates_do_what_they_did(self):
+    def test_registers_behind_gates_do_what_they_did(self) -> None:
         seed = random.randrange(2**31)
         design = json.loads(json.dumps(self.design))
         kinds = netlist.cell_kinds(design, self.library)
@@ -117,7 +127,7 @@ endmodule
         self.assertNotIn("differs", said, f"seed {seed}")
         self.assertGreater(int(said.split()[-1]), 1900, f"seed {seed}")
 
-    def test_four_registers_are_worth_a_gate_and_three_are_not(self):
+    def test_four_registers_are_worth_a_gate_and_three_are_not(self) -> None:
         for number, gates in ((3, 0), (4, 1)):
             text = "".join(["module \\column\n", *(f"  cell $_DFFE_PP_ $r{index}\n    connect \\C \\clk\n    connect \\D \\d\n"
                                                   f"    connect \\E \\e\n    connect \\Q \\q{index}\n  end\n"
@@ -125,7 +135,7 @@ endmodule
             gated, found = clock_gating.gated(text, self.library)
             self.assertEqual((found, gated.count("cell $_DFF_P_ "), gated == text), (gates, number * gates, not gates))
 
-    def test_without_a_gate_in_the_library_nothing_changes(self):
+    def test_without_a_gate_in_the_library_nothing_changes(self) -> None:
         text = (self.folder / "generic.il").read_text(encoding="utf-8")
         self.library.clock_gate, kept = None, self.library.clock_gate
         try:

@@ -19,8 +19,10 @@ OUTPUTS = ("tdc_ready_o", "busy_o", "error_o", "another_o", "result_tvalid_o", "
 class Constraints(unittest.TestCase):
     """Each input goes to a register, each output comes from one, so that a slack is what the port's budget leaves."""
 
+    output: str
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.output = cls.timed((ROOT / "constraints" / "dtof.sdc").read_text(encoding="utf-8"))
 
     @classmethod
@@ -63,7 +65,7 @@ class Constraints(unittest.TestCase):
         text = self.paths(mode, output)[start, end]
         return abs(float(found_in("OpenSTA", r"(-?[\d.]+) +-?[\d.]+ +[v^]? ?(?:input|output) external delay", text)[1]))
 
-    def test_every_port_leaves_seven_tenths_of_the_period(self):
+    def test_every_port_leaves_seven_tenths_of_the_period(self) -> None:
         for name in INPUTS:
             if name not in ("rst_ni", "sram_cfg_i", "start_i"):
                 self.assertAlmostEqual(self.external(name, f"r_{name}"), 0.9, places=4, msg=name)
@@ -71,7 +73,7 @@ class Constraints(unittest.TestCase):
             if name != "sram_cfg_o":
                 self.assertAlmostEqual(self.external(f"r_{name}", name), 0.9, places=4, msg=name)
 
-    def test_each_kind_of_port_has_the_share_with_its_name(self):
+    def test_each_kind_of_port_has_the_share_with_its_name(self) -> None:
         text = (ROOT / "constraints" / "dtof.sdc").read_text(encoding="utf-8")
         for share, value in (("tdc", 0.4), ("stream", 0.5)):
             text, changes = re.subn(rf"(?<=^set {share}_share )\S+$", f"{value}", text, flags=re.MULTILINE)
@@ -84,7 +86,7 @@ class Constraints(unittest.TestCase):
                     path = (name, f"r_{name}") if name in INPUTS else (f"r_{name}", name)
                     self.assertAlmostEqual(self.external(*path, mode, output), expected, places=4, msg=f"{name} {mode}")
 
-    def test_with_margins_ports_have_a_driver_and_a_load(self):
+    def test_with_margins_ports_have_a_driver_and_a_load(self) -> None:
         # 0.0321 ns at every input, and 17 fF at every output. Cells are 5 % slower where late paths count.
         constraints = (ROOT / "constraints" / "dtof.sdc").read_text(encoding="utf-8")
         output = self.timed(constraints, f"set slew 0.0321\nset load 17\nsource {ROOT}/constraints/margins.sdc\n"
@@ -97,25 +99,25 @@ class Constraints(unittest.TestCase):
             text = self.paths(mode, output)["r_rst", "r_busy_o"]
             self.assertAlmostEqual(float(found_in("OpenSTA", r"(-?[\d.]+) +-?[\d.]+ +clock uncertainty", text)[1]), uncertainty, places=4)
 
-    def test_the_reset_leaves_four_fifths(self):
+    def test_the_reset_leaves_four_fifths(self) -> None:
         self.assertAlmostEqual(self.external("rst_ni", "r_rst"), 0.6, places=4)
 
-    def test_the_side_band_of_the_srams_and_nothing_else_has_no_path(self):
+    def test_the_side_band_of_the_srams_and_nothing_else_has_no_path(self) -> None:
         ends = {port for pair in self.paths("max") for port in pair}
         self.assertEqual(({*INPUTS} - {"rst_ni"} | {*OUTPUTS}) - ends, {"sram_cfg_i", "sram_cfg_o"})
         self.assertNotIn("missing set_input_delay", self.output)
 
-    def test_uncertainty_is_of_setup_and_of_hold(self):
+    def test_uncertainty_is_of_setup_and_of_hold(self) -> None:
         for mode, uncertainty in (("max", -0.1), ("min", 0.05)):
             text = self.paths(mode)["r_rst", "r_busy_o"]
             self.assertAlmostEqual(float(found_in("OpenSTA", r"(-?[\d.]+) +-?[\d.]+ +clock uncertainty", text)[1]), uncertainty, places=4)
 
-    def test_an_edge_may_take_fifteen_hundredths_of_the_period(self):
+    def test_an_edge_may_take_fifteen_hundredths_of_the_period(self) -> None:
         rows = re.findall(r"^(\S+) +(\S+) +(\S+) +\S+ \(VIOLATED\)$", self.output.split("EDGES")[1], re.MULTILINE)
         self.assertIn("r_heavy/Q", [name for name, _, _ in rows])
         self.assertEqual({limit for _, limit, _ in rows}, {"0.45"})
 
-    def test_the_margins_have_their_figures(self):
+    def test_the_margins_have_their_figures(self) -> None:
         text = (ROOT / "constraints" / "margins.sdc").read_text(encoding="utf-8")
         self.assertIn("set margin_uncertainty 0.15\n", text)
         self.assertIn("set_timing_derate -late 1.05\n", text)

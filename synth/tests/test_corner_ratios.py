@@ -8,17 +8,19 @@ from types import SimpleNamespace
 from unittest import mock
 
 from dtof_synth import corner_ratios, liberty, sram_model, standard_cells
+from dtof_synth.run import Result, Technology
 from dtof_synth.sram_model import Size
 
+from .partial import part_of
 from .small_results import ROOT
 
 
 class Ratios(unittest.TestCase):
-    def test_the_ratios_are_those_of_their_sources(self):
+    def test_the_ratios_are_those_of_their_sources(self) -> None:
         self.assertAlmostEqual(corner_ratios.GATES, 81 / 25.8)
         self.assertAlmostEqual(corner_ratios.SRAMS, 2.2 / 1.2)
 
-    def test_registers_follow_the_gates(self):
+    def test_registers_follow_the_gates(self) -> None:
         slow = standard_cells.SLOW
         half = corner_ratios.corner(slow.gate / 2)
         for name in ("gate", "clock_to_q", "setup", "hold"):
@@ -26,12 +28,12 @@ class Ratios(unittest.TestCase):
         self.assertEqual((half.voltage, half.leakage), (slow.voltage, slow.leakage))
         self.assertEqual(corner_ratios.corner(slow.gate), slow)
 
-    def test_an_access_takes_so_many_times_the_typical_one(self):
+    def test_an_access_takes_so_many_times_the_typical_one(self) -> None:
         one, = corner_ratios.macros([Size(2, 10240, 10)], 3.0)
         self.assertAlmostEqual(one.access_slow, 3.6)
         self.assertEqual(one.access_typical, sram_model.ACCESS_TYPICAL_NS)
 
-    def test_each_reading_is_timed_with_its_libraries(self):
+    def test_each_reading_is_timed_with_its_libraries(self) -> None:
         seen = []
 
         def retimed(_result, _technology, _folder, cells, srams, *_):
@@ -43,7 +45,7 @@ class Ratios(unittest.TestCase):
             return SimpleNamespace(margin=lambda: SimpleNamespace(slack=0.1 * len(seen)))
 
         with TemporaryDirectory() as folder, mock.patch.object(corner_ratios, "retimed", retimed):
-            found = corner_ratios.read(None, SimpleNamespace(root=ROOT), Path(folder))
+            found = corner_ratios.read(part_of(Result), part_of(Technology, root=ROOT), Path(folder))
         self.assertEqual([round(one.slack, 1) for one in found], [0.1, 0.2, 0.3])
         access, setup = sram_model.macro(Size(2, 160, 14)).access_typical, 0.137 * 28 / 25.8
         gates, srams = 81 / 25.8, 2.2 / 1.2

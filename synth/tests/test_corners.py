@@ -6,11 +6,14 @@ import unittest
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import cast
 from unittest import mock
 
-from dtof_synth import library, run, spef, standard_cells
+from dtof_synth import library, run, spef, standard_cells, timing
+from dtof_synth.configuration import Configuration
 from dtof_synth.floorplan import Floorplan
 
+from .partial import part_of
 from .small_results import MARGIN
 from .test_floorplan import array
 
@@ -18,7 +21,7 @@ COLUMNS = 13  # from the middle of the first to that of the last: 12 pitches of 
 
 
 class Wires(unittest.TestCase):
-    def test_the_slow_corner_has_a_quarter_more_resistance_and_capacitance(self):
+    def test_the_slow_corner_has_a_quarter_more_resistance_and_capacitance(self) -> None:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             (folder / "slow.lib").write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
@@ -26,7 +29,7 @@ class Wires(unittest.TestCase):
             design = array(COLUMNS)
             plan = Floorplan(design, 1)
             plan.rename(spef.plain_names(design)["array"])
-            timed = run._Netlist(design, plan, None, SimpleNamespace(slow=cells), folder, None)
+            timed = run._Netlist(design, plan, part_of(Configuration), part_of(run.Technology, slow=cells), folder, {})
             timed.write_wires(design)
             for corner, ohm_per_um, ff_per_um in (("slow", 1.875, 0.25), ("typical", 1.5, 0.2), ("fast", 1.5, 0.2)):
                 text = (folder / f"wires_{corner}.spef").read_text(encoding="utf-8")
@@ -45,7 +48,7 @@ class _Recorder:
 
     def __init__(self) -> None:
         self.asked: list[tuple[str, ...]] = []
-        self.technology = SimpleNamespace(fast=object())
+        self.technology = part_of(run.Technology, fast=object())
 
     def time(self, corner: str, *steps: str, **_) -> SimpleNamespace:
         self.asked.append((corner, *steps))
@@ -57,15 +60,19 @@ class _Recorder:
     def early_pins(self, _) -> list[str]:
         return []
 
+    def netlist(self) -> run._Netlist:
+        """The recorder for code that takes a netlist."""
+        return cast(run._Netlist, self)
+
 
 class Repairs(unittest.TestCase):
-    def test_setup_is_judged_in_the_slow_corner_and_hold_in_the_fast_one(self):
+    def test_setup_is_judged_in_the_slow_corner_and_hold_in_the_fast_one(self) -> None:
         recorder = _Recorder()
-        run._timed(recorder, None)
+        run._timed(recorder.netlist(), 0)
         self.assertEqual([asked[:3] for asked in recorder.asked if "early" in asked], [("fast", "margins", "early")])
         self.assertEqual([asked[:3] for asked in recorder.asked if "nominal" in asked], [("slow", "nominal", "margins")])
 
-    def test_what_resizing_cannot_mend_is_timed_once_after_each_change(self):
+    def test_what_resizing_cannot_mend_is_timed_once_after_each_change(self) -> None:
         class Late(_Recorder):
             changes = iter([True, True, False])
             guards: list[float] = []
@@ -80,13 +87,13 @@ class Repairs(unittest.TestCase):
                 return run.Resized(next(self.changes), 0.03)
 
         recorder = Late()
-        attempt = run._timed(recorder, None)
+        attempt = run._timed(recorder.netlist(), 0)
         self.assertEqual([asked[0] for asked in recorder.asked], ["fast", "slow"] * 2)
         # The first engine had 0.03 ns to spare where the array missed by 0.1: as much more is asked of it then.
         self.assertEqual([round(guard, 6) for guard in recorder.guards], [0.004, 0.134, 0.134])
         self.assertFalse(attempt.closes_with_margins)
 
-    def test_hold_is_mended_until_the_fast_corner_has_no_early_path(self):
+    def test_hold_is_mended_until_the_fast_corner_has_no_early_path(self) -> None:
         class TooEarly(_Recorder):
             plan = SimpleNamespace(places={})
 
@@ -95,10 +102,10 @@ class Repairs(unittest.TestCase):
 
         path = SimpleNamespace(slack=-0.03, pins=["g/A"])
         recorder = TooEarly()
-        report = SimpleNamespace(early=[path], margin=lambda: MARGIN)
+        report = part_of(timing.Report, early=[path], margin=lambda: MARGIN)
+        recorder.technology = part_of(run.Technology, slow=None, fast=recorder.technology.fast)
         with mock.patch.object(run.netlist, "delay_pins", return_value={}) as delayed:
-            recorder.technology.slow = None
-            run._Netlist.fix_hold(recorder, report, {"g/A": 1.0})
+            run._Netlist.fix_hold(recorder.netlist(), report, {"g/A": 1.0})
         # 0.03 ns take two buffers of 0.0169 ns.
         self.assertEqual(delayed.call_args.args[1], {("", "g", "A"): 2})
         self.assertEqual(recorder.asked, [("fast", "margins", "early")])

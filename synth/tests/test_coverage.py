@@ -10,6 +10,7 @@ from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 _spec = importlib.util.spec_from_file_location("coverage_report", ROOT / "scripts" / "coverage.py")
+assert _spec is not None and _spec.loader is not None
 coverage = importlib.util.module_from_spec(_spec)
 sys.modules["coverage_report"] = coverage
 _spec.loader.exec_module(coverage)

@@ -7,13 +7,14 @@ import re
 import tempfile
 import unittest
 from pathlib import Path
-from types import SimpleNamespace
 from unittest import mock
 
 from dtof_synth import floorplan, library, netlist, spef, standard_cells, tools
 from dtof_synth.errors import FlowError
 from dtof_synth.floorplan import Floorplan, Wire
-from dtof_synth.library import Buffer
+from dtof_synth.library import Buffer, Library
+
+from .partial import part_of
 
 ROOT = Path(__file__).resolve().parents[2]
 COLUMN_PIN_FF = 3.0
@@ -40,6 +41,11 @@ def array(columns: int) -> dict:
 
 
 class WithLibrary(unittest.TestCase):
+    temporary: tempfile.TemporaryDirectory[str]
+    folder: Path
+    liberty: Path
+    library: Library
+
     @classmethod
     def setUpClass(cls) -> None:
         cls.temporary = tempfile.TemporaryDirectory()
@@ -63,14 +69,14 @@ class Trees(WithLibrary):
         floorplan.spread(plan, self.library, self.pin_load, {2})
         return netlist.top(design), plan
 
-    def test_columns_stand_in_their_order_and_timestamps_above_them(self):
+    def test_columns_stand_in_their_order_and_timestamps_above_them(self) -> None:
         plan = Floorplan(array(12), 1, pitch_um=10.0)
         self.assertEqual([plan[f"g_column[{index}].u_column"] for index in (0, 2, 10, 11)], [5.0, 25.0, 105.0, 115.0])
         self.assertEqual(plan.port_um(110, "g_column[10].u_column"), 105.0)
         self.assertEqual(plan.port_um(3, "near"), 60.0)
         self.assertEqual(plan["near"], 60.0)
 
-    def test_a_segment_of_the_line_stands_where_its_words_come_from(self):
+    def test_a_segment_of_the_line_stands_where_its_words_come_from(self) -> None:
         design = array(12)
         top = netlist.top(design)
         for index, word in ((1, 300), (2, 301)):
@@ -82,7 +88,7 @@ class Trees(WithLibrary):
         plan = Floorplan(design, 1, pitch_um=10.0)
         self.assertEqual([plan[name] for name in ("or", "segment", "line", "other")], [20.0, 20.0, 20.0, 60.0])
 
-    def test_every_column_hears_the_register_and_no_driver_is_overloaded_or_far_away(self):
+    def test_every_column_hears_the_register_and_no_driver_is_overloaded_or_far_away(self) -> None:
         seed = int(os.environ.get("DTOF_TEST_SEED", random.randrange(2**31)))
         for columns in (1, 2, 200, *random.Random(seed).sample(range(3, 400), 4)):
             with self.subTest(columns=columns, seed=seed):
@@ -114,7 +120,7 @@ class Trees(WithLibrary):
                     limit = next(iter(self.library.max_load_ff[item["type"]].values()))
                     self.assertLessEqual(load.get(net, 0.0), limit, name)
 
-    def test_a_register_far_from_its_columns_is_copied(self):
+    def test_a_register_far_from_its_columns_is_copied(self) -> None:
         top, _ = self.spread(200)
         self.assertGreater(sum(netlist.COPY_SUFFIX in name and name.startswith("far") for name in top["cells"]), 5)
         self.assertFalse(any(name.startswith(f"near{netlist.COPY_SUFFIX}") for name in top["cells"]))
@@ -123,8 +129,8 @@ class Trees(WithLibrary):
 class Spread(unittest.TestCase):
     """Trees by hand: sinks of 3 fF with 0.5 fF of wire each, 0.1 fF of wire per um, a largest buffer of 200 fF that is filled to 100 fF."""
 
-    LIBRARY = SimpleNamespace(buffers=[Buffer("BUF_X1", "A", "Y", 1.0, 1.0, 50.0), Buffer("BUF_X4", "A", "Y", 2.0, 1.5, 200.0)],
-                              wire_ff_per_sink=0.5)
+    LIBRARY = part_of(Library, buffers=[Buffer("BUF_X1", "A", "Y", 1.0, 1.0, 50.0), Buffer("BUF_X4", "A", "Y", 2.0, 1.5, 200.0)],
+                      wire_ff_per_sink=0.5)
 
     def spread(self, places: dict[str, float], maximum_ff: float, copy: bool = False, heavy: str = "", driver: str | None = "r",
                timestamps: bool = False, wire_ff: float = 0.1) -> dict[str, tuple[float, set[str]]]:
@@ -151,22 +157,23 @@ class Spread(unittest.TestCase):
         """(place, what it drives) of each driver; drivers that are driven stand for themselves by their place."""
         return {(place, frozenset(self.called.get(name, name) for name in names)) for place, names in found.values()}
 
-    def test_a_net_stays_as_it_is_up_to_its_limits(self):
+    def test_a_net_stays_as_it_is_up_to_its_limits(self) -> None:
         # Two sinks are 7 fF, 100 um of wire between register and sinks 10 fF: the driver may have twice that.
         near = {"a": 0.0, "b": 100.0}
         self.assertEqual(self.spread(near, 34.0), {"r": (0.0, {"a", "b"})})
         self.assertNotEqual(self.spread(near, 33.8), {"r": (0.0, {"a", "b"})})
-        for place, driven in ((400.0, {"a"}), (401.0, {400.0})):
+        cases: list[tuple[float, set[str | float]]] = [(400.0, {"a"}), (401.0, {400.0})]
+        for place, driven in cases:
             found = self.named(self.spread({"a": place}, 1000.0))
             self.assertIn((0.0, frozenset(driven)), found)
             self.assertEqual(len(found), 1 if place == 400.0 else 2)
 
-    def test_a_wire_to_both_sides_has_repeaters_every_400_um(self):
+    def test_a_wire_to_both_sides_has_repeaters_every_400_um(self) -> None:
         found = self.named(self.spread({"left": -900.0, "right": 500.0, "here": 0.0}, 1000.0))
         self.assertEqual(found, {(0.0, frozenset({-400.0, 400.0, "here"})), (-400.0, frozenset({-800.0})), (-800.0, frozenset({"left"})),
                                  (400.0, frozenset({"right"}))})
 
-    def test_neighbours_share_a_buffer_in_their_middle(self):
+    def test_neighbours_share_a_buffer_in_their_middle(self) -> None:
         # 1,000 and 1,200 um lie within 200 um, 1,201 does not; alone, a sink of 3.5 fF needs no buffer and one of 5.5 fF does.
         places = {"a": 1000.0, "b": 1200.0, "c": 1201.0}
         for heavy, last in (("", "c"), ("c", 1201.0)):
@@ -176,10 +183,11 @@ class Spread(unittest.TestCase):
             self.assertIn((800.0, frozenset({1100.0, 1200.0})), found)
             self.assertEqual((1201.0, frozenset({"c"})) in found, bool(heavy))
 
-    def test_light_neighbours_of_the_register_stay_with_it_and_many_do_not(self):
+    def test_light_neighbours_of_the_register_stay_with_it_and_many_do_not(self) -> None:
         # Within a column's width of 50 um: 3 sinks are 10.5 fF. Half of the driver's 21 fF is 10.5 fF, half of 20.8 fF is less.
         near = {f"near{index}": 50.0 for index in range(3)}
-        for maximum_ff, driven in ((42.0, {*near, 400.0}), (41.6, {50.0, 400.0})):
+        cases: list[tuple[float, set[str | float]]] = [(42.0, {*near, 400.0}), (41.6, {50.0, 400.0})]
+        for maximum_ff, driven in cases:
             self.assertIn((0.0, frozenset(driven)), self.named(self.spread({**near, "far": 450.0}, maximum_ff, wire_ff=0.0)))
         found = self.named(self.spread({**near, "far": 450.0}, 400.0))
         self.assertIn((0.0, frozenset({*near, 400.0})), found)
@@ -189,50 +197,49 @@ class Spread(unittest.TestCase):
             found = self.named(self.spread({**near, "far": 450.0}, 400.0))
             self.assertIn((0.0, frozenset({50.0, 400.0})), found)  # three are more than half of five
 
-    def test_a_register_is_copied_for_the_buffers_within_400_um(self):
+    def test_a_register_is_copied_for_the_buffers_within_400_um(self) -> None:
         found = self.named(self.spread({"a": 1000.0, "b": 1100.0, "c": 1350.0, "d": 1850.0}, 400.0, copy=True))
         # Buffer of a and b at 1,050; with c within 400 um: a copy at 1,200. d: a copy of its own.
         self.assertEqual(found, {(1050.0, frozenset({"a", "b"})), (1200.0, frozenset({1050.0, "c"})), (1850.0, frozenset({"d"}))})
 
-    def test_a_weak_driver_has_as_few_buffers_beside_it_as_carry_the_load(self):
+    def test_a_weak_driver_has_as_few_buffers_beside_it_as_carry_the_load(self) -> None:
         # Sinks within a column's width: 200 um of wire leave a buffer 80 fF, 22 sinks. One sink that is left needs no buffer.
         self.assertEqual(self.named(self.spread({"a": 0.0, "b": 0.0, "c": 0.0}, 21.0)), {(0.0, frozenset("abc"))})
         for number, maximum_ff, sizes in ((3, 20.8, [1, 3]), (22, 20.0, [1, 22]), (23, 20.0, [2, 22]), (24, 20.0, [2, 2, 22])):
             found = self.spread({f"s{index}": 0.0 for index in range(number)}, maximum_ff)
             self.assertEqual(sorted(len(names) for _, names in found.values()), sizes)
 
-    def test_buffers_beside_a_driver_leave_room_for_a_wire_to_the_next_repeater(self):
+    def test_buffers_beside_a_driver_leave_room_for_a_wire_to_the_next_repeater(self) -> None:
         # 400 um of wire leave a buffer 60 fF, 17 sinks of 3.5 fF; it is a pin of 2 fF. Three of them are 6 fF.
         for number, limit, begun in ((17, 10.0, [17]), (18, 10.0, [1, 17]), (34, 4.0, [17, 17]), (51, 6.0, [17] * 3), (51, 5.9, [3])):
             builder = netlist.TreeBuilder({"ports": {}, "cells": {
                 "r": cell("DFF", {"D": 1}, {"Q": 2}), **{f"s{index}": cell("LOAD", {"A": 2}, {}) for index in range(number)}}},
                 self.LIBRARY, lambda kind, pin: 3.0)
             plan = Floorplan.__new__(Floorplan)
-            plan.places, plan.centre_um, clusters = {}, 0.0, []
+            plan.places, plan.centre_um = {}, 0.0
             spreader = floorplan._Spreader(plan, builder, self.LIBRARY, Wire(1.0, 0.1))
-            buffer = spreader._buffer
-            spreader._buffer = lambda net, cluster, place: clusters.append(cluster) or buffer(net, cluster, place)
-            left = spreader._relieve(2, 0.0, builder.nets[2], limit)
-            self.assertEqual(sorted(len(cluster) for cluster in clusters[-len(left):]), begun)
+            with mock.patch.object(spreader, "_buffer", side_effect=spreader._buffer) as buffer:
+                left = spreader._relieve(2, 0.0, builder.nets[2], limit)
+            self.assertEqual(sorted(len(call.args[1]) for call in buffer.call_args_list[-len(left):]), begun)
 
-    def test_a_port_of_a_timestamp_stands_above_its_first_sink(self):
+    def test_a_port_of_a_timestamp_stands_above_its_first_sink(self) -> None:
         places = {"a": 1000.0, "b": 700.0, "c": 1300.0}
         self.assertEqual(self.spread(places, 1000.0, driver=None, timestamps=True), {"r": (0.0, {"a", "b", "c"})})
         self.assertNotEqual(self.spread(places, 1000.0, driver=None), {"r": (0.0, {"a", "b", "c"})})  # from the middle, at 0 um
 
-    def test_pins_of_cells_and_of_macros(self):
-        load = floorplan.pin_load(SimpleNamespace(input_ff={"INV": {"A": 1.2}}), 7.0)
+    def test_pins_of_cells_and_of_macros(self) -> None:
+        load = floorplan.pin_load(part_of(Library, input_ff={"INV": {"A": 1.2}}), 7.0)
         self.assertEqual([load("INV", "A"), load("INV", "Y"), load("sram_1rw_2x3", "en_i")], [1.2, 0.0, 7.0])
 
 
 class Borders(WithLibrary):
-    def test_registers_and_constants_pass(self):
+    def test_registers_and_constants_pass(self) -> None:
         design = array(3)
         floorplan.check_borders(design, self.library)
         netlist.top(design)["cells"]["g_column[1].u_column"]["connections"]["told"] = ["0"]
         floorplan.check_borders(design, self.library)
 
-    def test_a_gate_or_a_port_in_front_of_a_column_stops_the_flow(self):
+    def test_a_gate_or_a_port_in_front_of_a_column_stops_the_flow(self) -> None:
         design = array(3)
         top = netlist.top(design)
         top["cells"]["gate"] = cell("NAND2_X1", {"A1": 4, "A2": 5}, {"Y": 3000})
@@ -244,7 +251,7 @@ class Borders(WithLibrary):
         with self.assertRaisesRegex(FlowError, "from a port of the array"):
             floorplan.check_borders(design, self.library)
 
-    def test_a_timestamp_that_passes_a_gate_on_its_way_stops_the_flow(self):
+    def test_a_timestamp_that_passes_a_gate_on_its_way_stops_the_flow(self) -> None:
         design = array(3)
         top = netlist.top(design)
         top["cells"]["gate"] = cell("INV_X1", {"A": 4}, {"Y": 3000})
@@ -253,7 +260,7 @@ class Borders(WithLibrary):
         with self.assertRaisesRegex(FlowError, r"timestamp_i\[0\] does not come from a register but from NAND2_X1"):
             floorplan.check_borders(design, self.library)
 
-    def test_a_port_is_registered_if_its_bits_come_from_registers_and_constants(self):
+    def test_a_port_is_registered_if_its_bits_come_from_registers_and_constants(self) -> None:
         module = {"ports": {"word_o": {"direction": "output", "bits": [3, 5]}, "gated_o": {"direction": "output", "bits": [3, 6]}},
                   "cells": {"r": cell("DFF_X1", {"D": 2}, {"Q": 3}), "zero": cell("TIE0_X1", {}, {"Y": 4}),
                             "b": cell("BUF_X1", {"A": 4}, {"Y": 5}), "g": cell("NAND2_X1", {"A1": 3, "A2": 2}, {"Y": 6})}}
@@ -277,7 +284,7 @@ class Spef(WithLibrary):
         plan.places, plan.centre_um = {"r": 0.0, **places}, 0.0
         return spef.write(design, plan, self.library, [Wire(2.0, 0.5)], {2})[0]
 
-    def test_a_net_and_its_port(self):
+    def test_a_net_and_its_port(self) -> None:
         text = self.write({"a": 10.0, "b": 30.0}, port=True)
         self.assertIn('*DESIGN "the_array"', text)
         wire = self.library.wire_ff_per_sink  # at each input of a cell
@@ -287,20 +294,20 @@ class Spef(WithLibrary):
         self.assertEqual(body[7:11], [f"1 r:D {wire:.4f}", "2 told_i 2.5000", f"3 a:A {7.5 + wire:.4f}", f"4 b:A {5 + wire:.4f}"])
         self.assertEqual(body[11:], ["*RES", "1 r:D told_i 0.0100", "2 told_i a:A 20.0000", "3 a:A b:A 40.0000", "*END"])
 
-    def test_the_driver_and_an_output_port(self):
+    def test_the_driver_and_an_output_port(self) -> None:
         body = self.write({"a": 30.0}).split("*D_NET ")[1].splitlines()
         self.assertEqual((body[0].split()[0], body[2:5]), ("q_o", ["*P q_o O", "*I r:Q O", "*I a:A I"]))
 
-    def test_short_nets_are_left_to_the_wire_load(self):
+    def test_short_nets_are_left_to_the_wire_load(self) -> None:
         for place, described in ((19.0, 0), (20.0, 1), (21.0, 1)):
             self.assertEqual(self.write({"a": place}).count("*D_NET"), described, place)
 
-    def test_names_that_become_alike_are_told_apart(self):
-        design = {"modules": {"m": {"cells": {"a[1]": {}, "a_1_": {}, "a.1.": {}}}}}
+    def test_names_that_become_alike_are_told_apart(self) -> None:
+        design: dict = {"modules": {"m": {"cells": {"a[1]": {}, "a_1_": {}, "a.1.": {}}}}}
         self.assertEqual(spef.plain_names(design), {"m": {"a_1_": "a[1]", "a_1__": "a_1_", "a_1___": "a.1."}})
         self.assertEqual(list(design["modules"]["m"]["cells"]), ["a_1_", "a_1__", "a_1___"])
 
-    def test_constants_are_no_nets(self):
+    def test_constants_are_no_nets(self) -> None:
         design = array(2)
         netlist.top(design)["cells"]["far"]["connections"]["D"] = ["0"]
         pins = spef.Nets(design, Floorplan(design, 1), self.library).pins()
@@ -308,7 +315,7 @@ class Spef(WithLibrary):
 
 
 class Wires(WithLibrary):
-    def test_a_wire_has_the_resistance_and_capacitance_of_its_length(self):
+    def test_a_wire_has_the_resistance_and_capacitance_of_its_length(self) -> None:
         design = array(4)
         plan = Floorplan(design, 1, pitch_um=100.0)
         spef.plain_names(design)
@@ -321,7 +328,7 @@ class Wires(WithLibrary):
         self.assertAlmostEqual(ff, 300.0 * 0.5 + 4 * self.library.wire_ff_per_sink, places=2)
         self.assertNotIn(f"*D_NET {floorplan.TIMESTAMP_PORT}", text)  # the timestamps' ports stand above their columns
 
-    def test_opensta_finds_the_delay_of_a_long_wire(self):
+    def test_opensta_finds_the_delay_of_a_long_wire(self) -> None:
         """A register, 1 mm of wire, a register: behind a strong driver the wire adds between half of its Elmore delay and
         all of it (the 50 % point of a distributed line is at 0.38 R C)."""
         wire, length = Wire(3.0, 0.3), 1000.0

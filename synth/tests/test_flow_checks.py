@@ -14,8 +14,11 @@ HEAD = "module dtof_array(input wire clk_i, input wire [3:0] a, input wire e, ou
 
 
 class FlowChecks(unittest.TestCase):
+    temporary: tempfile.TemporaryDirectory[str]
+    folder: Path
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.temporary.name)
         sram_kit.write_kit(cls.folder, [Size(2, 160, 10)])
@@ -23,7 +26,7 @@ class FlowChecks(unittest.TestCase):
             (cls.folder / f"{corner.name}.lib").write_text(standard_cells.library(corner), encoding="utf-8")
 
     @classmethod
-    def tearDownClass(cls):
+    def tearDownClass(cls) -> None:
         cls.temporary.cleanup()
 
     def elaborate(self, body: str) -> None:
@@ -48,57 +51,57 @@ class FlowChecks(unittest.TestCase):
             "target_period": 3.0, "fast_period": 2.0, "activity": 0.1, "measured_column": "x_u_column", "steps": ["closing", "nominal", "power"]})
         return tools.run_sta(SYNTH / "sta" / "timing.tcl", settings, self.folder / "sta.log", "test")
 
-    def test_clean_rtl_passes(self):
+    def test_clean_rtl_passes(self) -> None:
         self.elaborate("always_ff @(posedge clk_i) q <= a;")
 
-    def test_latch(self):
+    def test_latch(self) -> None:
         with self.assertRaisesRegex(FlowError, "2_check_rtl.*dlatch"):
             self.elaborate("always @* if (e) q = a;")
 
-    def test_inferred_memory(self):
+    def test_inferred_memory(self) -> None:
         with self.assertRaisesRegex(FlowError, "2_check_rtl.*mem"):
             self.elaborate("reg [3:0] m [0:255]; always_ff @(posedge clk_i) begin m[{a, a}] <= a; q <= m[{a, q}]; end")
 
-    def test_undriven_net(self):
+    def test_undriven_net(self) -> None:
         with self.assertRaisesRegex(FlowError, "no driver"):
             self.elaborate("wire [3:0] w; always_ff @(posedge clk_i) q <= a & w;")
 
-    def test_multiple_drivers(self):
+    def test_multiple_drivers(self) -> None:
         with self.assertRaisesRegex(FlowError, "conflicting drivers"):
             self.elaborate("wire [3:0] w; assign w = a; assign w = ~a; always_ff @(posedge clk_i) q <= w;")
 
-    def test_combinational_loop(self):
+    def test_combinational_loop(self) -> None:
         with self.assertRaisesRegex(FlowError, "loop"):
             self.elaborate("wire w; assign w = w ^ e; always_ff @(posedge clk_i) q <= {4{w}};")
 
-    def test_unlisted_sram_size(self):
+    def test_unlisted_sram_size(self) -> None:
         with self.assertRaisesRegex(FlowError, "a size that is not listed"):
             self.elaborate("dtof_sram_1r1w #(.DEPTH(161), .WIDTH(10)) u_macro (.clk_i(clk_i));")
 
-    def test_missing_module_and_syntax_error(self):
+    def test_missing_module_and_syntax_error(self) -> None:
         with self.assertRaisesRegex(FlowError, "nowhere"):
             self.elaborate("nowhere u (.a(a));")
         with self.assertRaisesRegex(FlowError, "syntax error"):
             self.elaborate("always_ff @(posedge clk_i q <= a;")
 
-    def test_opensta_reports_a_clean_design(self):
+    def test_opensta_reports_a_clean_design(self) -> None:
         output = self.sta("module t(clk_i, a, q); input clk_i, a; output q; wire n;"
                           " DFF_X1 r(.D(a), .CK(clk_i), .Q(n)); DFF_X1 s(.D(n), .CK(clk_i), .Q(q)); endmodule")
         self.assertIn("DTOF_SLACK", output)
 
-    def test_opensta_times_the_enable_of_a_clock_gate(self):
+    def test_opensta_times_the_enable_of_a_clock_gate(self) -> None:
         output = self.sta("module t(clk_i, a, q); input clk_i, a; output q; wire n, gck; DFF_X1 r(.D(a), .CK(clk_i), .Q(n));"
                           " CLKGATE_X1 g(.CK(clk_i), .E(n), .GCK(gck)); DFF_X1 s(.D(n), .CK(gck), .Q(q)); endmodule")
         self.assertIn("clock gating-check end-point", output)
 
-    def test_opensta_errors_are_seen_although_it_exits_0(self):
+    def test_opensta_errors_are_seen_although_it_exits_0(self) -> None:
         good = "module t(clk_i); input clk_i; endmodule"
         for verilog, libraries in (("module t(clk_i; endmodule", None), (good, [self.folder / "absent.lib"]),
                                    ("module other(clk_i); input clk_i; endmodule", None)):
             with self.subTest(verilog=verilog), self.assertRaisesRegex(FlowError, "OpenSTA"):
                 self.sta(verilog, libraries)
 
-    def test_opensta_counts_rise_and_fall_for_every_transition(self):
+    def test_opensta_counts_rise_and_fall_for_every_transition(self) -> None:
         # dtof_synth/power.py halves the internal power for this reason.
         output = self.sta("module t(clk_i, a, q); input clk_i, a; output q; wire n;"
                           " DFF_X1 r(.D(a), .CK(clk_i), .Q(n)); DFF_X1 s(.D(n), .CK(clk_i), .Q(q)); endmodule")
@@ -106,7 +109,7 @@ class FlowChecks(unittest.TestCase):
         per_cycle = 2 * standard_cells.clock_energy_fj(1.1) * 1e-15 / 3e-9
         self.assertAlmostEqual(watts / (2 * 2 * per_cycle), 1, delta=0.01)
 
-    def test_power_counts_one_column_and_no_sram(self):
+    def test_power_counts_one_column_and_no_sram(self) -> None:
         column = "module c(k, a, q); input k, a; output q; DFF_X1 r(.D(a), .CK(k), .Q(q)); endmodule\n"
         output = self.sta(column + "module t(clk_i, a, q); input clk_i, a; output q; wire n, m;"
                           " DFF_X1 r(.D(a), .CK(clk_i), .Q(n)); c x_u_column(.a(n), .k(clk_i), .q(m));"

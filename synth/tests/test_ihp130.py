@@ -20,18 +20,19 @@ def compiled(ports: int, words: int, bits: int, area: float, access: float = 3.0
 class Choice(unittest.TestCase):
     MACROS = [compiled(1, 64, 64, 500), compiled(1, 256, 16, 300), compiled(1, 256, 64, 900), compiled(2, 256, 16, 600)]
 
-    def test_the_smallest_that_holds_all_words(self):
+    def test_the_smallest_that_holds_all_words(self) -> None:
         for size, copies, name in ((Size(1, 60, 60), 1, "1P_64x64"), (Size(1, 160, 14), 1, "1P_256x16"),
                                    (Size(1, 160, 20), 2, "1P_256x16"), (Size(1, 100, 116), 2, "1P_256x64"),
                                    (Size(2, 256, 16), 1, "2P_256x16")):
             chosen = ihp130.choose(size, self.MACROS)
+            assert chosen is not None
             self.assertEqual((chosen[0], chosen[1].name), (copies, name), size)
 
-    def test_too_many_words_or_other_ports(self):
+    def test_too_many_words_or_other_ports(self) -> None:
         self.assertIsNone(ihp130.choose(Size(1, 257, 4), self.MACROS))
         self.assertIsNone(ihp130.choose(Size(2, 16, 4), self.MACROS[:3]))
 
-    def test_the_memory_has_its_figures(self):
+    def test_the_memory_has_its_figures(self) -> None:
         memory = ihp130.macro(Size(1, 160, 20), self.MACROS)
         self.assertEqual((memory.banks, memory.area, memory.access_slow, memory.setup, memory.hold), (2, 600, 5.0, 0.4, 0.8))
         self.assertEqual(ihp130.macro(Size(1, 257, 4), self.MACROS), sram_model.macro(Size(1, 257, 4)))
@@ -60,7 +61,7 @@ class Read(unittest.TestCase):
 
     STEM = "RM_IHPSG13_2P_256x16_c3"
 
-    def setUp(self):
+    def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
@@ -69,26 +70,26 @@ class Read(unittest.TestCase):
                            (f"{self.STEM}_slow_1p08V_125C.lib.gz", macro_liberty(4.0, 0.7))):
             (self.folder / name).write_bytes(gzip.compress(text.encode()))
 
-    def test_figures_are_the_worst_of_the_functional_pins_in_the_middle_of_their_tables(self):
+    def test_figures_are_the_worst_of_the_functional_pins_in_the_middle_of_their_tables(self) -> None:
         found, = ihp130.read(self.folder)
         self.assertEqual(found, ihp130.Compiled(self.STEM, Size(2, 256, 16), 3, 416.64, 118.78, 2.5, 4.0, 0.7, 0.3))
         self.assertAlmostEqual(found.area, 416.64 * 118.78)
 
-    def test_what_is_missing_is_named(self):
+    def test_what_is_missing_is_named(self) -> None:
         with self.assertRaisesRegex(FlowError, "no timing of type hold_falling"):
             ihp130._worst(ihp130._cell(self.folder / f"{self.STEM}_typ_1p20V_25C.lib.gz"), "hold_falling", ("rise_constraint",))
         (self.folder / f"{self.STEM}_slow_1p08V_125C.lib.gz").unlink()
         with self.assertRaisesRegex(FlowError, "not a macro of which"):
             ihp130.read(self.folder)
 
-    def test_cells_of_both_corners(self):
+    def test_cells_of_both_corners(self) -> None:
         self.assertEqual([path.name for path in ihp130.cells(Path("pdk"))],
                          ["sg13g2_stdcell_typ_1p20V_25C.lib.gz", "sg13g2_stdcell_slow_1p08V_125C.lib.gz"])
 
 
 @unittest.skipUnless((PDK / "ihp130").is_dir(), f"{PDK}/ihp130 is not here")
 class ThePdk(unittest.TestCase):
-    def test_sizes_and_access_times_beside_a_list_read_by_hand(self):
+    def test_sizes_and_access_times_beside_a_list_read_by_hand(self) -> None:
         macros = {(macro.size.words, macro.size.bits): macro for macro in ihp130.read(PDK / "ihp130" / "sram")
                   if macro.size.ports == 1}
         compared = 0

@@ -84,13 +84,13 @@ def library():
 
 
 class Parsers(unittest.TestCase):
-    def test_router(self):
+    def test_router(self) -> None:
         self.assertEqual(results.failed_nets(ROUTED), [])
         self.assertEqual(results.failed_nets(UNROUTED), ["clk_i", "sram_rdata_o_0"])
         with self.assertRaisesRegex(FlowError, "did not come to its end"):
             results.failed_nets("Progress: Stage 2 total routes completed: 5507\n")
 
-    def test_design_rules(self):
+    def test_design_rules(self) -> None:
         self.assertEqual(results.violations(CLEAN).total, 0)
         found = results.violations(BROKEN)
         self.assertEqual(found.total, 2)
@@ -99,14 +99,14 @@ class Parsers(unittest.TestCase):
             with self.assertRaisesRegex(FlowError, "end of its script"):
                 results.violations(unfinished)
 
-    def test_comparison(self):
+    def test_comparison(self) -> None:
         self.assertEqual(results.lvs_verdict(MATCH), results.UNIQUE)
         self.assertNotEqual(results.lvs_verdict(MISMATCH), results.UNIQUE)
         self.assertNotEqual(results.lvs_verdict(MATCH.replace("uniquely", "with 2 symmetries")), results.UNIQUE)
         with self.assertRaisesRegex(FlowError, "no result"):
             results.lvs_verdict("Reading netlist file t.spice\n")
 
-    def test_routed_def(self):
+    def test_routed_def(self) -> None:
         layout = results.read_def(DEF)
         self.assertEqual(layout.die, (0.0, -3.0, 160.0, 7.0))
         self.assertEqual(layout.cells["INVX1_2"], ("INVX1", 120.0, 0.5))
@@ -115,7 +115,7 @@ class Parsers(unittest.TestCase):
         with self.assertRaisesRegex(FlowError, "no cells"):
             results.read_def(DEF.replace("PLACED", "UNPLACED"))
 
-    def test_arrivals(self):
+    def test_arrivals(self) -> None:
         output = ("DTOF_BARE\nEndpoint  Delay  Delay   Slack\nDFF_1/D (DFF)  49.8  2.1  47.7000 (MET)\n"
                   "q_o (output)  50.0  52.0  -2.0000 (VIOLATED)\nDTOF_END\n")
         found = results.arrivals(output, "DTOF_BARE", 50.0)
@@ -125,7 +125,7 @@ class Parsers(unittest.TestCase):
         with self.assertRaisesRegex(FlowError, "no paths"):
             results.arrivals(output, "DTOF_ROUTED", 50.0)
 
-    def test_a_net_in_which_the_router_lost_its_way(self):
+    def test_a_net_in_which_the_router_lost_its_way(self) -> None:
         text = "n1 1 U_1/Y 1 ( 2.4 0.1 U_2/A )\nn2 1 U_1/Y 1 ( 2.4 0.1 ERROR , ( 1.0 0.1 U_3/A ) )\n"
         self.assertEqual(list(results.read_trees(text)), ["n1"])
         column = block.from_module("column", MODULE, library(), {"sram"})
@@ -135,7 +135,7 @@ class Parsers(unittest.TestCase):
         for line in ("*D_NET q_o 6", "*I DFF_1:Q O", "*P q_o O", "1 q_o:1 6", "1 DFF_1:Q q_o:1 3"):
             self.assertIn(f"{line}\n", spef)
 
-    def test_a_net_of_thousands_of_pieces(self):
+    def test_a_net_of_thousands_of_pieces(self) -> None:
         deep = 5000
         trees = results.read_trees("n1 1 U_1/Y 1 " + "( 1.0 0.1 " * deep + "U_2/A" + " )" * deep + "\n")
         branch, pieces = trees["n1"].branches[0], 1
@@ -143,7 +143,7 @@ class Parsers(unittest.TestCase):
             branch, pieces = branch.branches[0], pieces + 1
         self.assertEqual((pieces, branch.pins), (deep, ["U_2/A"]))
 
-    def test_resistances(self):
+    def test_resistances(self) -> None:
         trees = results.read_trees("n1 1 U_1/Y 2 ( 2.4 0.1 U_2/A , ( 1.5 0.3 PIN/q_o ) ) \n")
         branch = trees["n1"].branches[0]
         self.assertEqual((trees["n1"].driver, branch.ohm, branch.pins), ("U_1/Y", 2.4, ["U_2/A"]))
@@ -167,22 +167,22 @@ class Failures(unittest.TestCase):
         project.compare.return_value = results.lvs_verdict(verdict)
         return project
 
-    def test_clean(self):
+    def test_clean(self) -> None:
         self.assertEqual(flow._checked(self.project([CLEAN], MATCH), Path()), (0, 0, results.UNIQUE))
 
-    def test_lone_via_is_removed(self):
+    def test_lone_via_is_removed(self) -> None:
         self.assertEqual(flow._checked(self.project([BROKEN, CLEAN], MATCH), Path()), (1, 0, results.UNIQUE))
         self.assertNotIn("11920 5500", (Path(self.temporary.name) / "t.def").read_text(encoding="utf-8"))
 
-    def test_design_rule_errors(self):
+    def test_design_rule_errors(self) -> None:
         with self.assertRaisesRegex(FlowError, "2 design rule errors.*Metal2 spacing"):
             flow._checked(self.project([BROKEN, BROKEN], MATCH), Path())
 
-    def test_mismatch(self):
+    def test_mismatch(self) -> None:
         with self.assertRaisesRegex(FlowError, "layout and netlist differ: Netlists do not match"):
             flow._checked(self.project([CLEAN], MISMATCH), Path())
 
-    def test_failed_net(self):
+    def test_failed_net(self) -> None:
         with tempfile.TemporaryDirectory() as folder, mock.patch.object(flow, "Project") as project:
             project.return_value.route.return_value = results.failed_nets(UNROUTED)
             part = mock.Mock()
@@ -194,7 +194,7 @@ class Failures(unittest.TestCase):
             project.return_value.route.side_effect = [["clk_i"], []]
             self.assertEqual(flow._place_and_route(Path(folder) / "qflow", part, tools.Cells(), None, {})[1], flow.SEEDS[1])
 
-    def test_exit_status(self):
+    def test_exit_status(self) -> None:
         with mock.patch.object(command, "_run", side_effect=FlowError("column: 2 nets could not be routed")), \
                 mock.patch("sys.argv", ["layout.py"]), mock.patch("sys.stderr", io.StringIO()) as said:
             self.assertEqual(command.main(), 1)
@@ -202,16 +202,16 @@ class Failures(unittest.TestCase):
 
 
 class Blocks(unittest.TestCase):
-    def setUp(self):
+    def setUp(self) -> None:
         self.block = block.from_module("column", MODULE, library(), {"sram"})
 
-    def test_ports(self):
+    def test_ports(self) -> None:
         """One port a net, none without a cell's pin; the SRAM's pins are ports, its clock is the column's."""
         self.assertEqual(self.block.ports, {"clk_i": "input", "a_i_0": "input", "q_o": "output", "sram_addr_i_0": "output",
                                             "sram_d_o": "input"})
         self.assertEqual(self.block.sram_ports, ["sram_addr_i_0", "sram_d_o"])
 
-    def test_cells(self):
+    def test_cells(self) -> None:
         gate, register = self.block.cells
         self.assertEqual((gate.name, gate.pins), ("NAND2_1", {"A": "a_i_0", "B": "vdd", "Y": "sram_addr_i_0"}))
         self.assertEqual(register.pins, {"D": "sram_d_o", "CLK": "clk_i", "Q": "q_o"})
@@ -219,22 +219,22 @@ class Blocks(unittest.TestCase):
         with self.assertRaisesRegex(FlowError, "does not have: sram"):
             block.from_module("column", MODULE, library(), set())
 
-    def test_no_brackets(self):
+    def test_no_brackets(self) -> None:
         """Post-route timing needs scalar names."""
         for text in (block.blif(self.block), block.verilog(self.block)):
             self.assertNotIn("[", text)
             self.assertIn("NAND2", text)
 
-    def test_density_is_qflow_s_setting(self):
+    def test_density_is_qflow_s_setting(self) -> None:
         for density, said in ((None, ""), (0.6, "set initial_density=0.6\n")):
-            with tempfile.TemporaryDirectory() as folder:
-                folder = Path(folder)
+            with tempfile.TemporaryDirectory() as temporary:
+                folder = Path(temporary)
                 (folder / "t.par").write_text("random.seed : 1\n", encoding="utf-8")
                 tools.Project(folder / "qflow", self.block, tools.Cells(folder, "t"), 7, density)
                 self.assertEqual((folder / "qflow" / "project_vars.sh").read_text(encoding="utf-8"), said)
                 self.assertIn("random.seed : 7", (folder / "qflow" / "layout" / "column.par").read_text(encoding="utf-8"))
 
-    def test_reference(self):
+    def test_reference(self) -> None:
         orders = block.pin_orders(".subckt NAND2 A B gnd Y vdd\n.ends\n.subckt DFF CLK D gnd Q vdd\n.ends\n")
         self.assertIn("XNAND2_1 a_i_0 vdd gnd sram_addr_i_0 vdd NAND2\n", block.spice(self.block, orders))
         with self.assertRaisesRegex(FlowError, "the layout's DFF does not have the pins"):
@@ -242,12 +242,12 @@ class Blocks(unittest.TestCase):
 
 
 class Pins(unittest.TestCase):
-    def test_order_and_room(self):
+    def test_order_and_room(self) -> None:
         self.assertEqual(pins.spread([(90.0, "b"), (10.0, "a"), (95.0, "c")], [0, 20, 40, 60, 80, 100]),
                          {"a": 20, "b": 80, "c": 100})
         self.assertEqual(pins.spread([(500.0, "a"), (500.0, "b")], [0, 20]), {"a": 0, "b": 20})
 
-    def test_edges(self):
+    def test_edges(self) -> None:
         column = block.Block("t", [block.Cell("INVX1_1", "INVX1", {"A": "sram_q_0", "Y": "n1"}, ""),
                                    block.Cell("INVX1_2", "INVX1", {"A": "a", "Y": "y"}, "")],
                              {"sram_q_0": "input", "a": "input", "y": "output"}, ["sram_q_0"])
@@ -265,15 +265,15 @@ class Wires(unittest.TestCase):
     LEF = ("LAYER metal2\n  TYPE ROUTING ;\n  WIDTH 0.3 ;\n  CAPACITANCE\tCPERSQDIST 2e-05 ;\n  EDGECAPACITANCE 6e-05 ;\n"
            "END metal2\nMACRO INVX1\n  CLASS CORE ;\n  SIZE 1.6 BY 10.0 ;\nEND INVX1\n")
 
-    def test_capacitance_of_a_layer(self):
+    def test_capacitance_of_a_layer(self) -> None:
         self.assertAlmostEqual(wires.layer_ff_per_um(self.LEF)["metal2"], 0.126)
         with self.assertRaisesRegex(FlowError, "no routing layer"):
             wires.layer_ff_per_um("VERSION 5.4 ;\n")
 
-    def test_cell_sizes(self):
+    def test_cell_sizes(self) -> None:
         self.assertEqual(picture.cell_sizes(self.LEF), {"INVX1": (1.6, 10.0)})
 
-    def test_parasitics(self):
+    def test_parasitics(self) -> None:
         column = block.from_module("column", MODULE, library(), {"sram"})
         trees = results.read_trees("sram_addr_i_0 1 NAND2_1/Y 1 ( 2.0 0.1 PIN/sram_addr_i_0 )\n")
         text = wires.spef(column, library(), trees, {"sram_addr_i_0": 4.0})
@@ -281,13 +281,13 @@ class Wires(unittest.TestCase):
                      "1 NAND2_1:Y sram_addr_i_0:1 2"):
             self.assertIn(f"{line}\n", text)
 
-    def test_lone_vias(self):
+    def test_lone_vias(self) -> None:
         text, number = repair.mend_lone_vias(DEF, results.violations(BROKEN).boxes)
         self.assertEqual((number, len(DEF.splitlines()) - len(text.splitlines())), (1, 1))
         self.assertEqual(repair.mend_lone_vias(DEF, {"Metal2 area < 20": [(119.0, 54.8, 119.4, 55.2)]}), (DEF, 0))
 
-    def test_a_lone_via_at_the_wrong_end_of_a_path(self):
-        at_the_end = {"Metal1 area < 20": [(119.8, 6.8, 120.2, 7.2)]}
+    def test_a_lone_via_at_the_wrong_end_of_a_path(self) -> None:
+        at_the_end: dict[str, list[tuple[float, ...]]] = {"Metal1 area < 20": [(119.8, 6.8, 120.2, 7.2)]}
         text, number = repair.mend_lone_vias(DEF, at_the_end)
         self.assertEqual((text, number), (DEF.replace("( 12000 600 ) ( * 700 ) M2_M1", "( 12000 700 ) ( 12000 600 ) M2_M1"), 1))
         # Neither the beginning of that path, nor another layer's, nor what is not there.

@@ -7,6 +7,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 _spec = importlib.util.spec_from_file_location("lint_rtl", ROOT / "scripts" / "lint_rtl.py")
+assert _spec is not None and _spec.loader is not None
 lint_rtl = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(lint_rtl)
 

@@ -25,7 +25,7 @@ class Loads(WithLibrary):
     def check(self, design: dict, plan: Floorplan) -> loads.Load:
         return loads.check("some", design, plan, self.library, self.pin_load)
 
-    def test_a_net_inside_has_its_pins_and_their_wires(self):
+    def test_a_net_inside_has_its_pins_and_their_wires(self) -> None:
         design, _ = self.design(2)
         found = {load.driver: load for load in loads.of_block(design, "test_column", self.library, self.pin_load)}
         # Inverters of four and one inputs, 2 um of 0.2 fF before each.
@@ -34,7 +34,7 @@ class Loads(WithLibrary):
         self.assertEqual(load.inputs, 2)
         self.assertAlmostEqual(load.limit_ff, 24 * standard_cells.CINV_FF, delta=0.1)
 
-    def test_a_net_between_blocks_has_the_wire_of_the_floorplan(self):
+    def test_a_net_between_blocks_has_the_wire_of_the_floorplan(self) -> None:
         design, plan = self.design(4)
         found = {load.driver: load for load in loads.of_top(design, plan, self.library, self.pin_load)}
         # From the first of four columns to the last are 300 um of 0.25 fF; each has an inverter behind its port.
@@ -42,7 +42,7 @@ class Loads(WithLibrary):
         self.assertEqual(found["far/Q"].inputs, 4)
         self.assertNotIn("clk_i", found)
 
-    def test_a_load_beyond_the_limit_stops_the_flow(self):
+    def test_a_load_beyond_the_limit_stops_the_flow(self) -> None:
         design, plan = self.design(4)
         with self.assertRaisesRegex(FlowError, r"some: 1 drivers have too much to drive: far/Q drives 8\d\.\d fF of 36\.3 and 4 inputs"):
             self.check(design, plan)
@@ -53,7 +53,7 @@ class Loads(WithLibrary):
         with self.assertRaisesRegex(FlowError, "test_column/i drives"):
             self.check(design, plan)
 
-    def test_too_many_inputs_stop_the_flow(self):
+    def test_too_many_inputs_stop_the_flow(self) -> None:
         design, plan = self.design(2)
         with mock.patch.object(loads, "MAX_FANOUT", 1), self.assertRaisesRegex(FlowError, "2 inputs of 1"):
             self.check(design, plan)
@@ -61,27 +61,27 @@ class Loads(WithLibrary):
         self.assertTrue(loads.Load("a", 1.0, 2.0, loads.MAX_FANOUT + 1).is_too_much)
         self.assertTrue(loads.Load("a", 2.1, 2.0, 1).is_too_much)
 
-    def test_three_of_the_loads_beyond_their_limits_are_named(self):
+    def test_three_of_the_loads_beyond_their_limits_are_named(self) -> None:
         heavy = [loads.Load(f"d{index}", 9.0, 8.0, 1) for index in range(4)]
         design, plan = self.design(2)
         with mock.patch.object(loads, "of_top", return_value=heavy):
             with self.assertRaisesRegex(FlowError, "4 drivers have too much to drive: d0 [^;]*; d1 [^;]*; d2 [^;]*$"):
                 self.check(design, plan)
 
-    def test_the_load_closest_to_its_limit_is_shown(self):
+    def test_the_load_closest_to_its_limit_is_shown(self) -> None:
         near, far = loads.Load("near", 5.0, 6.0, 1), loads.Load("far", 10.0, 20.0, 1)
         design, plan = self.design(2)
         with mock.patch.object(loads, "of_top", return_value=[far, near]), mock.patch.object(loads, "of_block", return_value=[]):
             self.assertEqual(self.check(design, plan), near)
 
-    def test_drivers_without_a_limit_are_not_judged(self):
+    def test_drivers_without_a_limit_are_not_judged(self) -> None:
         design, plan = self.design(2)
         netlist.modules(design)["test_column"]["cells"]["odd"] = cell("ODD", {"A": 8}, {"Y": 30})
         netlist.top(design)["cells"]["far"]["type"] = "ODD"
         self.assertNotIn("test_column/odd", {load.driver for load in loads.of_block(design, "test_column", self.library, self.pin_load)})
         self.assertNotIn("far/Q", {load.driver for load in loads.of_top(design, plan, self.library, self.pin_load)})
 
-    def test_a_cell_that_is_too_weak_for_its_wire_gets_the_drive_that_suffices(self):
+    def test_a_cell_that_is_too_weak_for_its_wire_gets_the_drive_that_suffices(self) -> None:
         design, plan = self.design(4)
         loads.strengthen(design, plan, self.library, self.pin_load)
         cells = netlist.top(design)["cells"]
@@ -92,7 +92,7 @@ class Loads(WithLibrary):
         loads.strengthen(design, plan, self.library, self.pin_load)  # 100 um and two inverters are 29.6 fF
         self.assertEqual(netlist.top(design)["cells"]["far"]["type"], "DFF_X2")
 
-    def test_a_block_that_drives_another_carries_the_wire_and_what_hangs_on_it_inside(self):
+    def test_a_block_that_drives_another_carries_the_wire_and_what_hangs_on_it_inside(self) -> None:
         design, plan = self.design(2)
         column, top = netlist.modules(design)["test_column"], netlist.top(design)
         column["ports"]["y"] = {"direction": "output", "bits": [8]}

@@ -21,11 +21,12 @@ NONE = Counts(0, 0, 0.0, 0, 0.0, 0.0, 0.0)
 def slacks(text: str) -> tuple[float, float]:
     """Setup and hold, as synth/sta/timing.tcl prints them."""
     found = re.search(r"^DTOF_MARGIN_SLACK (\S+) (\S+)", text, re.MULTILINE)
+    assert found is not None
     return float(found.group(1)), float(found.group(2))
 
 
 class Margins(unittest.TestCase):
-    def test_a_negative_slack_anywhere_is_not_met(self):
+    def test_a_negative_slack_anywhere_is_not_met(self) -> None:
         chosen = configuration.load(ROOT / "configurations.toml")["ezpointer"]
         good = Margin(0.2, 0.1, 0.3, "a", "b")
 
@@ -41,14 +42,14 @@ class Margins(unittest.TestCase):
             self.assertIn(said, verdict(bad, good))
             self.assertIn(said, verdict(good, bad))
 
-    def test_a_buffer_delays_the_early_path_and_not_the_tight_one(self):
+    def test_a_buffer_delays_the_early_path_and_not_the_tight_one(self) -> None:
         # A register reaches a gate directly and through a chain; the gate's output is the end of both ways. Delaying that
         # end would make the late way later.
         stages = 60
         nets = [f"n{index}" for index in range(stages + 1)]
         gates = "".join(f"  INV_X1 i{index} (.A({a}), .Y({b}));\n" for index, (a, b) in enumerate(zip(nets, nets[1:])))
-        with tempfile.TemporaryDirectory() as folder:
-            folder = Path(folder)
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
             liberty = folder / "slow.lib"
             liberty.write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
             (folder / "fork.v").write_text(
@@ -79,7 +80,7 @@ class Margins(unittest.TestCase):
         self.assertEqual(run._last_free_pin([("", "g", "A2"), ("", "b", "D")], spare, 3), ("", "g", "A2"))
         self.assertEqual(run._last_free_pin([("", "g", "A1"), ("", "b", "D")], spare, 3), ("", "g", "A1"))
 
-    def test_buffers_go_where_their_delay_is_to_spare(self):
+    def test_buffers_go_where_their_delay_is_to_spare(self) -> None:
         early, join, end = ("", "a", "D"), ("", "g", "A"), ("", "b", "D")
         one = run.HOLD_BUFFER_SLOW_NS
         plenty = 9 * one
@@ -90,11 +91,11 @@ class Margins(unittest.TestCase):
                                        ({early: 2 * one, end: one}, 2, early)):  # of `join` nothing is known
             self.assertEqual(run._last_free_pin([early, join, end], spare, buffers), chosen)
 
-    def test_derate_and_uncertainty_cost_what_they_should(self):
+    def test_derate_and_uncertainty_cost_what_they_should(self) -> None:
         # A chain between two flip-flops: the margins take 5 % of what arrives late and 0.05 ns more of uncertainty; hold
         # loses 5 % of the shortest path.
-        with tempfile.TemporaryDirectory() as folder:
-            folder = Path(folder)
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
             liberty = folder / "slow.lib"
             liberty.write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
             nets = [f"n{index}" for index in range(13)]

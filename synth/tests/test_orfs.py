@@ -19,7 +19,9 @@ SIGNATURES = {"RECT": 4, "SIZE": 3, "FOREIGN": 3, "LAYER": 1, "CLASS": 1, "DIREC
 
 def statements(text: str) -> list[tuple[tuple[str, ...], list[str]]]:
     """(blocks around it, words) of every statement of a LEF; ValueError where blocks and ends do not match."""
-    found, around, names = [], [], []
+    found: list[tuple[tuple[str, ...], list[str]]] = []
+    around: list[str] = []
+    names: list[list[str]] = []
     for line in text.splitlines():
         words = line.split()
         if not words:
@@ -57,8 +59,11 @@ def liberty_pins(cell: liberty.Group) -> dict[str, str]:
 
 
 class Files(unittest.TestCase):
+    temporary: tempfile.TemporaryDirectory[str]
+    folders: dict[str, Path]
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.temporary = tempfile.TemporaryDirectory()
         named = load(ROOT / "configurations.toml")
         cls.folders = {}
@@ -67,10 +72,10 @@ class Files(unittest.TestCase):
             orfs.write(orfs.small(named[name], 4), cls.folders[name], ROOT)
 
     @classmethod
-    def tearDownClass(cls):
+    def tearDownClass(cls) -> None:
         cls.temporary.cleanup()
 
-    def test_pins_agree(self):
+    def test_pins_agree(self) -> None:
         for folder in self.folders.values():
             cells = {cell.name: cell for cell in liberty.read(folder / "sram40_typical.lib").children("cell")}
             lefs = {path.stem: path.read_text(encoding="utf-8") for path in folder.glob("*.lef")}
@@ -80,7 +85,7 @@ class Files(unittest.TestCase):
                 wrong = lef_pins(text.replace("PIN clk_i", "PIN clock_i"))
                 self.assertNotEqual(wrong, liberty_pins(cells[name]))
 
-    def test_inside_and_apart(self):
+    def test_inside_and_apart(self) -> None:
         """Every shape lies inside the macro, on the grid of 5 nm; shapes of metal4 do not touch each other."""
         for folder in self.folders.values():
             for path in folder.glob("*.lef"):
@@ -100,7 +105,7 @@ class Files(unittest.TestCase):
                 for one, other in zip(shapes, shapes[1:]):
                     self.assertTrue(one[1] < other[0] or one[3] < other[2] or other[3] < one[2], (path, one, other))
 
-    def test_config(self):
+    def test_config(self) -> None:
         for name, folder in self.folders.items():
             text = (folder / "config.mk").read_text(encoding="utf-8")
             settings = dict(re.findall(r"^export (\w+) = (.*(?:\\\n.*)*)$", text, re.MULTILINE))
@@ -114,7 +119,7 @@ class Files(unittest.TestCase):
             self.assertEqual(values.get("ENGINE_COLUMNS", "4"), "4")
             self.assertIn("dtof.sdc", (folder / "constraint.sdc").read_text(encoding="utf-8"), name)
 
-    def test_reader_notices(self):
+    def test_reader_notices(self) -> None:
         good = next(self.folders["ezpointer"].glob("*.lef")).read_text(encoding="utf-8")
         for bad in (good.replace("  END clk_i\n", "", 1), good.replace(" ;", "", 1),
                     good.replace("END LIBRARY", "")):
@@ -122,7 +127,7 @@ class Files(unittest.TestCase):
                 statements(bad)
 
     @unittest.skipUnless(PLATFORM_LEFS, "the platform's macros are not here")
-    def test_forms_of_the_platform(self):
+    def test_forms_of_the_platform(self) -> None:
         """No statement, in no block, that its macros do not have, with as many words."""
         known = set()
         for path in PLATFORM_LEFS:
@@ -134,7 +139,7 @@ class Files(unittest.TestCase):
                     self.assertIn((around, words[0], SIGNATURES.get(words[0]) and len(words) - 1), known, path)
         self.assertNotIn((("MACRO",), "ORIGIN", None), known)
 
-    def test_refusals(self):
+    def test_refusals(self) -> None:
         for arguments, sentence in ((["sifg"], "unknown configuration 'sifg'"), (["--columns", "1"], "at least 2")):
             with mock.patch("sys.argv", ["orfs.py", *arguments]), mock.patch("sys.stderr", io.StringIO()) as said:
                 self.assertEqual(orfs.main(), 1)

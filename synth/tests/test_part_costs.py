@@ -11,6 +11,7 @@ from dtof_synth import activity, configuration, library, liberty, part_costs, ru
 from dtof_synth.activity import STREAMING, Activity, Energy, Scope
 from dtof_synth.sram_model import Size
 
+from .partial import part_of
 from .small_results import ROOT
 
 
@@ -29,17 +30,17 @@ def design() -> dict:
 
 
 class PartCosts(unittest.TestCase):
-    def test_every_scope_below_the_top_is_a_part(self):
+    def test_every_scope_below_the_top_is_a_part(self) -> None:
         found = part_costs._instances(design())
         self.assertEqual(found, {"p0": ("quad", ""), "p0.p1": ("quad", "u_column"), "p0.p1.p0": ("quad", "u_match"),
                                  "p0.p1.p1": ("quad", "u_distance"), "p1": ("engine", ""), "p1.p0": ("engine", "u_match")})
 
-    def test_the_counting_has_the_same_scopes(self):
+    def test_the_counting_has_the_same_scopes(self) -> None:
         counted = design()
         activity.name_for_counting(counted)
         self.assertEqual(set(activity.scopes_of(counted)) - {""}, set(part_costs._instances(design())))
 
-    def test_a_part_has_its_instances_in_all_quads_or_engines(self):
+    def test_a_part_has_its_instances_in_all_quads_or_engines(self) -> None:
         # poolPointer: 50 quads, 6 engines. Each scope takes 3,000 fJ in 100 clocks, of which its SRAM takes 1,000 fJ.
         pool = configuration.load(ROOT / "configurations.toml")["poolpointer"]
         mapped = design()
@@ -61,7 +62,7 @@ class PartCosts(unittest.TestCase):
                     mock.patch.object(part_costs.scene_power, "small_case", return_value=case), \
                     mock.patch.object(part_costs.scene_power, "count_activity", return_value=Activity(scopes, {STREAMING: 100})), \
                     mock.patch.object(activity, "energy", return_value=Energy(nets=2000.0, sram=1000.0)):
-                parts = part_costs.measure(pool, SimpleNamespace(typical=cells), Path(folder), 1, said.append)
+                parts = part_costs.measure(pool, part_of(run.Technology, typical=cells), Path(folder), 1, said.append)
             part_costs.write_csv(Path(folder) / "parts.csv", parts)
             lines = (Path(folder) / "parts.csv").read_text(encoding="utf-8").splitlines()
         self.assertEqual(elaborate.call_args.args[0], case.configuration)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from dtof_synth import library, netlist, standard_cells, timing, tools, verilog
 from dtof_synth.errors import FlowError, found_in
+from dtof_synth.library import Library
 
 from .small_netlists import cell, module
 
@@ -34,8 +35,12 @@ def design() -> dict:
 
 
 class Resize(unittest.TestCase):
+    scratch: tempfile.TemporaryDirectory[str]
+    folder: Path
+    library: Library
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.scratch.cleanup)
         cls.folder = Path(cls.scratch.name)
@@ -60,7 +65,7 @@ class Resize(unittest.TestCase):
     def slack(self, circuit: dict, period: float) -> float:
         return float(found_in("OpenSTA", r"^DTOF_MARGIN_SLACK (\S+)", self.sta(circuit, period, "margins").output)[1])
 
-    def test_the_gate_that_makes_a_path_late_grows_in_every_block(self):
+    def test_the_gate_that_makes_a_path_late_grows_in_every_block(self) -> None:
         circuit = design()
         period = 3.0 - self.slack(circuit, 3.0) - 0.05
         self.assertLess(self.slack(circuit, period), 0)
@@ -74,19 +79,19 @@ class Resize(unittest.TestCase):
         self.assertAlmostEqual(report.resized_slack, self.slack(circuit, period), delta=1e-6)
         self.assertAlmostEqual(report.resized_area, COPIES * (self.library.area[drive] - self.library.area["INV_X1"]), delta=1e-6)
 
-    def test_what_no_gate_mends_is_left(self):
+    def test_what_no_gate_mends_is_left(self) -> None:
         circuit = design()
         netlist.resize(circuit, self.library, self.sta(circuit, 0.3, "resize").resized)
         self.assertLess(self.slack(circuit, 0.3), 0)
 
-    def test_gates_that_help_only_at_their_first_trial_do_not_hold_the_step_up(self):
+    def test_gates_that_help_only_at_their_first_trial_do_not_hold_the_step_up(self) -> None:
         # OpenSTA's slack drifts: every first trial of a gate shows a gain, every second one none.
         (self.folder / "drift.sdc").write_text("proc worth {gate args} { expr {[incr ::trials($gate)] % 2} }\n", encoding="utf-8")
         report = self.sta(design(), 0.9, "resize", margins="drift.sdc")
         self.assertLess(report.resized_slack, 0)
         self.assertEqual(report.resized, [])
 
-    def test_gates_with_time_to_spare_shrink_and_others_do_not(self):
+    def test_gates_with_time_to_spare_shrink_and_others_do_not(self) -> None:
         circuit = design()
         netlist.resize(circuit, self.library, [("a_pair", "driver", "INV_X4")])
         met = 3.0 - self.slack(circuit, 3.0)
@@ -95,7 +100,7 @@ class Resize(unittest.TestCase):
         self.assertEqual(self.sta(circuit, met + 1.0, "resize", pairs).resized,
                          [("a_pair", "idle", "INV_X2"), ("a_pair", "driver", "INV_X2")])
 
-    def test_what_may_shrink(self):
+    def test_what_may_shrink(self) -> None:
         circuit = design()
         gates = circuit["modules"]["a_pair"]["cells"]
         gates["driver"]["type"] = "INV_X2"
@@ -124,7 +129,7 @@ class Resize(unittest.TestCase):
             gates[f"load{index}"]["connections"]["A"] = [50]
         return circuit, gates
 
-    def test_a_buffer_that_no_path_needs_is_taken_out(self):
+    def test_a_buffer_that_no_path_needs_is_taken_out(self) -> None:
         circuit, gates = self.buffered()
         found, carried = netlist.dispensable_buffers(circuit, self.library, ["a_pair"], self.load)
         self.assertEqual([(one.kind, one.buffer, one.driver) for one in found], [("a_pair", "buffer", "driver")])
@@ -146,7 +151,7 @@ class Resize(unittest.TestCase):
         # What the step says of its result is what the circuit has when it is read anew.
         self.assertAlmostEqual(report.resized_slack, self.slack(circuit, 3.0), delta=1e-6)
 
-    def test_a_buffer_that_keeps_load_from_a_slow_path_stays(self):
+    def test_a_buffer_that_keeps_load_from_a_slow_path_stays(self) -> None:
         circuit, gates = self.buffered()
         found, _ = netlist.dispensable_buffers(circuit, self.library, ["a_pair"], self.load)
         met = 3.0 - self.slack(circuit, 3.0)
@@ -154,7 +159,7 @@ class Resize(unittest.TestCase):
         self.assertEqual((report.dropped, report.resized), ([], []))
         self.assertAlmostEqual(report.resized_slack, self.slack(circuit, met + 0.001), delta=1e-6)
 
-    def test_which_buffers_may_go(self):
+    def test_which_buffers_may_go(self) -> None:
         circuit, gates = self.buffered()
 
         def found() -> list[str]:
@@ -172,18 +177,18 @@ class Resize(unittest.TestCase):
         gates |= {f"heavy{index}": cell("INV_X16", {"A": 50}, {"Y": 100 + index}) for index in range(40)}
         self.assertEqual(found(), ["behind_behind_port"])
 
-    def test_buffers_in_a_row_are_taken_out(self):
+    def test_buffers_in_a_row_are_taken_out(self) -> None:
         circuit, gates = self.buffered()
         gates["second"] = cell("BUF_X1", {"A": 50}, {"Y": 63})
         gates["load1"]["connections"]["A"] = [63]
         netlist.drop_buffers(circuit, self.library, [("a_pair", "buffer"), ("a_pair", "second")])
         self.assertEqual({gates[f"load{index}"]["connections"]["A"][0] for index in range(LOADS)}, {6})
 
-    def test_another_function_is_refused(self):
+    def test_another_function_is_refused(self) -> None:
         with self.assertRaisesRegex(FlowError, "driver is a INV_X1 and cannot be resized to NAND2_X1"):
             netlist.resize(design(), self.library, [("a_pair", "driver", "NAND2_X1")])
 
-    def test_drives_are_of_one_function(self):
+    def test_drives_are_of_one_function(self) -> None:
         families = {tuple(family) for family in self.library.drives}
         self.assertIn(("NAND2_X1", "NAND2_X2", "NAND2_X4"), families)
         self.assertIn(("DFFR_X1", "DFFR_X2"), families)

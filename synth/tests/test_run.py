@@ -7,6 +7,7 @@ import unittest
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import cast
 from unittest import mock
 
 from dtof_synth import configuration, library, netlist, run, sram_model, standard_cells, timing
@@ -16,6 +17,7 @@ from dtof_synth.netlist import Counts
 from dtof_synth.power import ClockTree
 from dtof_synth.sram_model import Size
 
+from .partial import part_of
 from .small_results import MARGIN, ROOT, TIMING, result
 from .test_floorplan import array
 
@@ -23,15 +25,15 @@ NAMED = configuration.load(ROOT / "configurations.toml")
 
 
 class InFolder(unittest.TestCase):
-    def setUp(self):
+    def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
 
 
 class Mapping(InFolder):
-    TECHNOLOGY = SimpleNamespace(root=ROOT, target_mhz=330.0, slow=SimpleNamespace(
-        inverter="INV_X1", input_ff={"INV_X1": {"A": 1.5}}, path=Path("slow.lib"), tie={"0": ("TIE0", "Y"), "1": ("TIE1", "Y")}))
+    TECHNOLOGY = part_of(run.Technology, root=ROOT, target_mhz=330.0, slow=part_of(
+        library.Library, inverter="INV_X1", input_ff={"INV_X1": {"A": 1.5}}, path=Path("slow.lib"), tie={"0": ("TIE0", "Y"), "1": ("TIE1", "Y")}))
 
     def settings(self, name: str, effort: int, naming: int = 0, foreign: frozenset = frozenset()) -> dict:
         (self.folder / "mapped.json").write_text("{}", encoding="utf-8")
@@ -40,14 +42,14 @@ class Mapping(InFolder):
             run.map_to_cells(NAMED[name], self.TECHNOLOGY, self.folder, run.efforts(NAMED[name])[effort], naming)
         return written.call_args.args[1]
 
-    def test_abc_gets_its_share_of_the_period(self):
+    def test_abc_gets_its_share_of_the_period(self) -> None:
         # 330 MHz are 3030.3 ps.
         for name, shares in (("ezpointer", (0.62, 0.62, 0.55)), ("poolpointer", (0.68, 0.68, 0.68))):
             self.assertEqual(len(run.efforts(NAMED[name])), len(shares))
             for effort, share in enumerate(shares):
                 self.assertEqual(self.settings(name, effort)["abc_period_ps"], f"{3030.303 * share:.0f}")
 
-    def test_logic_drives_four_inverters_and_is_mapped_with_the_slow_library(self):
+    def test_logic_drives_four_inverters_and_is_mapped_with_the_slow_library(self) -> None:
         settings = self.settings("ezpointer", 0, naming=3)
         self.assertEqual((self.folder / "abc.constr").read_text(encoding="utf-8"), "set_driving_cell INV_X1\nset_load 6.000 [all_outputs]\n")
         found = {name: settings[name] for name in ("liberty", "naming", "tie_low", "tie_high", "generic_netlist")}
@@ -55,12 +57,12 @@ class Mapping(InFolder):
                                  "generic_netlist": self.folder / "generic.il"})
         self.assertEqual(self.yosys.call_args.args[0], ROOT / "synth/yosys/map.tcl")
 
-    def test_a_cell_that_is_not_of_the_library_stops_the_flow(self):
+    def test_a_cell_that_is_not_of_the_library_stops_the_flow(self) -> None:
         with self.assertRaisesRegex(FlowError, "poolpointer: unmapped cells in the netlist: a, b"):
             self.settings("poolpointer", 0, foreign=frozenset("ba"))
         self.assertEqual(self.cells.call_args.args[2], {"sram_1rw_100x232", "sram_1rw_160x33"})
 
-    def test_elaboration_sees_the_memories_of_this_configuration_alone(self):
+    def test_elaboration_sees_the_memories_of_this_configuration_alone(self) -> None:
         with mock.patch.object(run.sram_kit, "write_rtl_views", return_value=["boxes", "one", "two"]) as views, \
                 mock.patch.object(run.tools, "write_settings") as written, mock.patch.object(run, "to_generic") as generic, \
                 mock.patch.object(run.clock_gating, "insert") as gates:
@@ -76,16 +78,16 @@ class Mapping(InFolder):
 class Netlists(InFolder):
     """An array of five columns of ezPointer's width, with real cells and stand-ins."""
 
-    def setUp(self):
+    def setUp(self) -> None:
         super().setUp()
         texts = {corner.name: standard_cells.library(corner) for corner in standard_cells.CORNERS}
         for name, text in texts.items():
             (self.folder / f"{name}.lib").write_text(text, encoding="utf-8")
         cells = {name: library.read(self.folder / f"{name}.lib") for name in texts}
         self.technology = run.Technology(cells["typical"], cells["slow"], self.folder / "kit", ROOT, 330.0, cells["fast"])
-        chosen = SimpleNamespace(name="some", top="array", column_modules=5, engines=0, engine_columns=0, module_columns=1)
+        chosen = part_of(configuration.Configuration, name="some", top="array", column_modules=5, engines=0, engine_columns=0, module_columns=1)
         self.design = array(5)
-        self.netlist = run._Netlist(self.design, Floorplan(self.design, 1), chosen, self.technology, self.folder / "effort0", None)
+        self.netlist = run._Netlist(self.design, Floorplan(self.design, 1), chosen, self.technology, self.folder / "effort0", {})
         self.netlist.prepare()
 
     def measured(self, corner: str, *steps: str, **settings) -> tuple:
@@ -95,7 +97,7 @@ class Netlists(InFolder):
             self.netlist.time(corner, *steps, **settings)
         return measure.call_args.args
 
-    def test_the_first_two_columns_and_the_last_are_real(self):
+    def test_the_first_two_columns_and_the_last_are_real(self) -> None:
         self.assertEqual(self.netlist.real, ["g_column_0__u_column", "g_column_1__u_column", "g_column_4__u_column"])
         blocks = json.loads((self.folder / "effort0" / timing.BLOCKS).read_text(encoding="utf-8"))
         self.assertEqual(blocks["blocks"], ["test_column", self.netlist.real, 5])
@@ -103,12 +105,12 @@ class Netlists(InFolder):
         names = json.loads((self.folder / "effort0" / timing.NAMES).read_text(encoding="utf-8"))
         self.assertEqual(names["g_column_4__u_column"], "g_column[4].u_column")
 
-    def test_every_file_that_opensta_reads_is_written(self):
+    def test_every_file_that_opensta_reads_is_written(self) -> None:
         self.assertLessEqual({"timing.v", "stand_in.lib", "wires_typical.spef", "wires_slow.spef", "wires_fast.spef"},
                              {path.name for path in (self.folder / "effort0").iterdir()})
         self.assertEqual(len(netlist.columns(self.design)), 5)
 
-    def test_a_corner_has_its_cells_memories_and_wires(self):
+    def test_a_corner_has_its_cells_memories_and_wires(self) -> None:
         for corner in ("typical", "slow", "fast"):
             files, root, mhz, log, steps, settings = self.measured(corner, "margins", pins=["a"])
             folder = self.folder / "effort0"
@@ -120,14 +122,15 @@ class Netlists(InFolder):
             self.assertEqual(settings, {"measured_column": "g_column_0__u_column", "pins": ["a"]})
             self.judge.assert_not_called()
 
-    def test_slacks_at_the_target_clock_come_with_a_check_of_every_end(self):
+    def test_slacks_at_the_target_clock_come_with_a_check_of_every_end(self) -> None:
         *_, steps, _ = self.measured("slow", "nominal", "closing")
         self.assertEqual(steps, ("check", "nominal", "closing"))
         self.assertEqual(self.judge.call_args.args[0], "some")
 
-    def test_gates_are_resized_in_the_slow_corner(self):
-        for found, changed in (({}, False), ({"resized": [("test_column", "i", "INV_X2")]}, True),
-                               ({"dropped": [("test_column", "i")]}, True)):
+    def test_gates_are_resized_in_the_slow_corner(self) -> None:
+        cases: list[tuple[dict[str, list], bool]] = [({}, False), ({"resized": [("test_column", "i", "INV_X2")]}, True),
+                                                     ({"dropped": [("test_column", "i")]}, True)]
+        for found, changed in cases:
             report = SimpleNamespace(**{"resized": [], "dropped": [], "resized_slack": 0.125, **found})
             with mock.patch.object(run._Netlist, "time", return_value=report) as timed, mock.patch.object(run.netlist, "drop_buffers"):
                 resized = self.netlist.resize(True, 0.01)
@@ -135,10 +138,10 @@ class Netlists(InFolder):
             self.assertEqual((timed.call_args.kwargs["guard"], timed.call_args.kwargs["shrinkable"]), ("0.01", []))
             self.assertEqual(resized, run.Resized(changed, 0.125))
 
-    def test_the_log_of_resizing_is_one_of_its_own(self):
+    def test_the_log_of_resizing_is_one_of_its_own(self) -> None:
         self.assertEqual(self.measured("slow", "resize")[3].name, "sta_resize.log")
 
-    def test_cells_of_the_whole_array(self):
+    def test_cells_of_the_whole_array(self) -> None:
         # Five columns of an inverter; what is shared are two registers.
         cells = self.technology.slow
         shared = sum(cells.area[cell["type"]] for cell in netlist.top(self.design)["cells"].values() if cell["type"] in cells.area)
@@ -151,7 +154,12 @@ class _Finished:
     design, plan = {"a": "design"}, "plan"
 
     def __init__(self, slacks: list[float], changes: list[bool]) -> None:
-        self.slacks, self.changes, self.done = slacks, changes, []
+        self.slacks, self.changes = slacks, changes
+        self.done: list[tuple] = []
+
+    def netlist(self) -> run._Netlist:
+        """This netlist for code that takes one of the flow."""
+        return cast(run._Netlist, self)
 
     def time(self, corner: str, *steps: str) -> SimpleNamespace:
         self.done.append((corner, *steps))
@@ -163,7 +171,7 @@ class _Finished:
         return run.Resized(self.changes.pop(0), 0.0)
 
     def fix_hold(self, report, spare) -> timing.Margin:
-        self.done.append(("hold", report if isinstance(report, str) else report.output, spare))
+        self.done.append(("hold", report.output, spare))
         return replace(MARGIN, start="fast")
 
     def cell_area(self) -> float:
@@ -189,9 +197,10 @@ class Run(InFolder):
     def finish(self, name: str = "ezpointer", slacks: tuple = (0.1,), changes: tuple = (), corners: tuple = run.BOTH_CORNERS, margin=MARGIN):
         """(result, what was done with the netlist)."""
         timed = _Finished([*slacks], [*changes])
-        best = run._Attempt(timed, 2, 0.3, margin, "early report" if margin else None, {"pin": 0.5})
-        cells = SimpleNamespace(nand2_area=0.8, mux2_area=2.0)
-        self.technology = SimpleNamespace(slow=cells, typical=SimpleNamespace(), fast=object())
+        early = part_of(timing.Report, output="early report") if margin else None
+        best = run._Attempt(timed.netlist(), 2, 0.3, margin, early, {"pin": 0.5})
+        cells = part_of(library.Library, nand2_area=0.8, mux2_area=2.0)
+        self.technology = part_of(run.Technology, slow=cells, typical=part_of(library.Library), fast=object())
         with mock.patch.object(run, "elaborate") as self.elaborate, mock.patch.object(run, "_attempts", return_value=[best]) as self.attempts, \
                 mock.patch.object(run.loads, "check", return_value="fullest") as self.loads, \
                 mock.patch.object(run.floorplan, "pin_load", return_value="pin load"), \
@@ -201,7 +210,7 @@ class Run(InFolder):
                 mock.patch.object(run.power, "clock_mw", return_value=30.0) as self.clock:
             return run.run(NAMED[name], self.technology, self.folder, corners, 3, 7), timed.done
 
-    def test_an_array_that_closes_is_timed_in_every_corner_once(self):
+    def test_an_array_that_closes_is_timed_in_every_corner_once(self) -> None:
         found, done = self.finish()
         self.assertEqual(done, [("hold", "early report", {"pin": 0.5}), self.NOMINAL, ("logic",), ("typical", "nominal", "closing", "power")])
         self.assertEqual(self.elaborate.call_args.args, (NAMED["ezpointer"], self.technology, self.folder))
@@ -213,14 +222,14 @@ class Run(InFolder):
         self.assertEqual(json.loads((self.folder / run.FINISHED_COLUMN).read_text(encoding="utf-8")), {"finished": "column"})
         self.assertEqual(self.loads.call_args.args, ("ezpointer", _Finished.design, "plan", self.technology.slow, "pin load"))
 
-    def test_power_is_that_of_the_typical_corner_and_of_all_columns(self):
+    def test_power_is_that_of_the_typical_corner_and_of_all_columns(self) -> None:
         found, _ = self.finish()
         self.assertEqual((found.power.logic, found.power.sram, found.power.clock), (10.0, 20.0, 30.0))
         self.assertEqual(self.logic.call_args.args, ("typical", 200))
         self.assertEqual(self.sram.call_args.args, (NAMED["ezpointer"], 330.0))
         self.assertEqual(self.clock.call_args.args, ("typical", 200, ClockTree(1, 2.0, 3.0), self.technology.typical, 330.0))
 
-    def test_the_clock_tree_feeds_columns_control_and_every_macro(self):
+    def test_the_clock_tree_feeds_columns_control_and_every_macro(self) -> None:
         # ezPointer: 200 columns with a macro each. poolPointer: 50 modules with a macro each, 6 engines with one.
         pin = run.sram_kit.CLOCK_PIN_FF
         for name, modules, macros in (("ezpointer", 200, 200), ("poolpointer", 50, 56)):
@@ -229,7 +238,7 @@ class Run(InFolder):
             self.assertEqual((sinks, cells), (modules * 8 + 80 + macros, self.technology.slow))
             self.assertAlmostEqual(ff, modules * 6.0 + 60.0 + macros * pin)
 
-    def test_what_hold_buffers_take_is_won_back_in_at_most_two_rounds(self):
+    def test_what_hold_buffers_take_is_won_back_in_at_most_two_rounds(self) -> None:
         _, done = self.finish(slacks=(-0.02, -0.01, 0.0), changes=(True, True))
         self.assertEqual(done[1:7], [self.NOMINAL, ("resize", True, 0.024), self.EARLY, ("hold", "fast", {"pin": 0.5}), self.NOMINAL,
                                      ("resize", True, 0.014)])
@@ -238,7 +247,7 @@ class Run(InFolder):
         _, done = self.finish(slacks=(-0.02,), changes=(False,))
         self.assertEqual(done[1:4], [self.NOMINAL, ("resize", True, 0.024), ("logic",)])
 
-    def test_one_corner_has_neither_margins_nor_power(self):
+    def test_one_corner_has_neither_margins_nor_power(self) -> None:
         found, done = self.finish(corners=("slow",))
         self.assertEqual(done, [("slow", "nominal", "closing"), ("logic",)])
         self.assertEqual((found.margins, found.power, list(found.timing)), ({}, None, ["slow"]))
@@ -248,30 +257,33 @@ class Run(InFolder):
 
 
 class Attempts(unittest.TestCase):
-    def test_an_attempt_closes_with_a_tenth_of_a_nanosecond_and_with_margins(self):
+    def test_an_attempt_closes_with_a_tenth_of_a_nanosecond_and_with_margins(self) -> None:
+        nothing = part_of(run._Netlist)
         for slack, margin, closes in ((0.1, 0.0, True), (0.0999, 0.2, False), (0.3, -0.0001, False), (0.1, None, True), (0.09, None, False)):
-            attempt = run._Attempt(None, 0, slack, None if margin is None else replace(MARGIN, slack=margin))
+            attempt = run._Attempt(nothing, 0, slack, None if margin is None else replace(MARGIN, slack=margin))
             self.assertEqual(attempt.closes_with_margins, closes, (slack, margin))
-        self.assertAlmostEqual(run._Attempt(None, 0, 0.3, replace(MARGIN, slack=0.05)).rank, 0.05)
-        self.assertAlmostEqual(run._Attempt(None, 0, 0.12, replace(MARGIN, slack=0.05)).rank, 0.02)
+        self.assertAlmostEqual(run._Attempt(nothing, 0, 0.3, replace(MARGIN, slack=0.05)).rank, 0.05)
+        self.assertAlmostEqual(run._Attempt(nothing, 0, 0.12, replace(MARGIN, slack=0.05)).rank, 0.02)
 
-    def test_a_slow_path_of_the_array_decides_about_a_library_without_a_fast_corner(self):
-        timed = SimpleNamespace(technology=SimpleNamespace(fast=None), time=lambda *asked: SimpleNamespace(slack=0.25 if asked == ("slow", "nominal") else 9))
+    def test_a_slow_path_of_the_array_decides_about_a_library_without_a_fast_corner(self) -> None:
+        timed = part_of(run._Netlist, technology=part_of(run.Technology, fast=None),
+                        time=lambda *asked: SimpleNamespace(slack=0.25 if asked == ("slow", "nominal") else 9))
         self.assertEqual(run._timed(timed, 4), run._Attempt(timed, 4, 0.25, None))
 
 
 class OtherWays(InFolder):
     """The netlist that a run left, timed again."""
 
-    def setUp(self):
+    def setUp(self) -> None:
         super().setUp()
         self.effort = self.folder / "effort1"
         self.effort.mkdir()
         self.result = replace(result("ezpointer"), effort=1)
-        self.technology = SimpleNamespace(slow=SimpleNamespace(path=Path("cells.lib"), wire_load="slow wires", drives=[["A", "B"]], area={"A": 1.0},
-                                                               buffers=[SimpleNamespace(input_pin="A", output_pin="Y")]),
-                                          typical=SimpleNamespace(wire_load="other"), fast=SimpleNamespace(path=Path("other.lib"), wire_load="other"),
-                                          kit=Path("kit"), root=ROOT, target_mhz=330.0)
+        slow = part_of(library.Library, path=Path("cells.lib"), wire_load="slow wires", drives=[["A", "B"]], area={"A": 1.0},
+                       buffers=[part_of(library.Buffer, input_pin="A", output_pin="Y")])
+        fast = part_of(library.Library, path=Path("other.lib"), wire_load="other")
+        self.technology = part_of(run.Technology, slow=slow, typical=part_of(library.Library, wire_load="other"), fast=fast, kit=Path("kit"), root=ROOT,
+                                  target_mhz=330.0)
         (self.effort / timing.BLOCKS).write_text(json.dumps({"blocks": ["a_column", ["c0"], 2]}), encoding="utf-8")
 
     def measured(self, what, *arguments):
@@ -279,7 +291,7 @@ class OtherWays(InFolder):
         with mock.patch.object(run.timing, "measure", return_value=report) as self.measure:
             return what(self.result, self.technology, self.folder, *arguments)
 
-    def test_the_flat_run_has_every_column_real_in_the_slow_corner(self):
+    def test_the_flat_run_has_every_column_real_in_the_slow_corner(self) -> None:
         text = "module t;\n  a_column c0 (.a(b));\n  column_stand_in c1 (.a(b));\n  column_stand_in_x y (.a(b));\nendmodule\n"
         (self.effort / "timing.v").write_text(text, encoding="utf-8")
         self.assertEqual(self.measured(run.flat), run.Flat(MARGIN.slack, 0.07))
@@ -292,7 +304,7 @@ class OtherWays(InFolder):
         with self.assertRaisesRegex(FlowError, "ezpointer: no column has a stand-in"):
             self.measured(run.flat)
 
-    def test_other_wires_are_timed_as_it_is_and_resized(self):
+    def test_other_wires_are_timed_as_it_is_and_resized(self) -> None:
         self.assertEqual(self.measured(run.with_wires, 7.4), run.OtherWires(0.11, 0.07, 0.09, 0.0025))
         self.assertEqual((self.effort / "slow_wires.lib").read_text(encoding="utf-8"), standard_cells.library(standard_cells.SLOW, 7.4))
         asked = [call.args for call in self.measure.call_args_list]
@@ -302,13 +314,13 @@ class OtherWays(InFolder):
         self.assertEqual(asked[1][5], {"blocks": ["a_column", ["c0"], 2], "drives": [["A", "B"]], "cell_areas": {"A": 1.0}, "guard": "0.004",
                                        "shrinkable": [], "buffer_pins": ["A", "Y"], "dispensable": []})
 
-    def test_each_file_of_a_run_is_in_its_digest_with_its_name(self):
+    def test_each_file_of_a_run_is_in_its_digest_with_its_name(self) -> None:
         kit = self.folder / "kit"
         kit.mkdir()
         for name in ("a.lib", "typical.lib", "slow.lib"):
             ((kit if name == "a.lib" else self.folder) / name).write_text(name, encoding="utf-8")
-        some = SimpleNamespace(root=ROOT, kit=kit, typical=SimpleNamespace(path=self.folder / "typical.lib"),
-                               slow=SimpleNamespace(path=self.folder / "slow.lib"))
+        some = part_of(run.Technology, root=ROOT, kit=kit, typical=part_of(library.Library, path=self.folder / "typical.lib"),
+                       slow=part_of(library.Library, path=self.folder / "slow.lib"))
 
         def digest(flow: str = "flow") -> str:
             with mock.patch.object(run.report_inputs, "flow_digest", return_value=flow):
@@ -325,7 +337,7 @@ class OtherWays(InFolder):
 
 
 class Areas(unittest.TestCase):
-    def test_an_arrays_area_by_hand(self):
+    def test_an_arrays_area_by_hand(self) -> None:
         # poolPointer: 50 modules of four columns, each with an SRAM; 6 engines with one. 800 um2 of cells a module, 5,000 um2 shared.
         found = result("poolpointer", 200.0, 5000.0)
         column, engine = (sram_model.macro(size).area for size in (Size(1, 100, 232), Size(1, 160, 33)))

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from dtof_synth import library, netlist, same_logic, spef, standard_cells
 from dtof_synth.errors import FlowError
+from dtof_synth.library import Library
 
 from .small_netlists import cell, module
 
@@ -27,8 +28,10 @@ def mapped() -> dict:
 
 
 class SameLogic(unittest.TestCase):
+    library: Library
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "slow.lib"
             path.write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
@@ -61,55 +64,57 @@ class SameLogic(unittest.TestCase):
             return str(error)
         return ""
 
-    def test_what_the_steps_do_is_no_difference(self):
+    def test_what_the_steps_do_is_no_difference(self) -> None:
         design, called = self.finished()
         kinds = {gate["type"] for kind in design["modules"].values() for gate in kind["cells"].values()}
         self.assertTrue({"BUF_X1", "NAND2_X4", "DFF_X2"} <= kinds, kinds)
         self.assertTrue(any(netlist.COPY_SUFFIX in name for name in netlist.top(design)["cells"]))
         same_logic.check(same_logic.of(mapped(), self.library), same_logic.of(design, self.library, called))
 
-    def test_another_function_is_found(self):
+    def test_another_function_is_found(self) -> None:
         self.assertIn("a_quad: gate is no longer what was mapped", self.refusal(lambda pair, top: pair["gate"].update(type="NOR2_X4")))
 
-    def test_a_crossed_wire_is_found(self):
+    def test_a_crossed_wire_is_found(self) -> None:
         def cross(pair, top):
             pair["gate"]["connections"]["A1"] = [3]
         self.assertIn("a_quad: gate is no longer", self.refusal(cross))
 
-    def test_a_hold_buffer_of_another_net_is_found(self):
+    def test_a_hold_buffer_of_another_net_is_found(self) -> None:
         def other(pair, top):
             first = min(name for name in pair if name.startswith(netlist.HOLD_PREFIX))
             pair[first]["connections"]["A"] = [4]
         self.assertIn("a_quad: g_array[0].last is no longer", self.refusal(other))
 
-    def test_what_a_lost_buffer_drove_is_found(self):
+    def test_what_a_lost_buffer_drove_is_found(self) -> None:
         def leave(pair, top):
             pair["gate"]["connections"]["A1"] = [8]
         self.assertIn("a_quad: gate is no longer", self.refusal(leave))
 
-    def test_an_inverter_in_place_of_a_buffer_is_found(self):
+    def test_an_inverter_in_place_of_a_buffer_is_found(self) -> None:
         def invert(pair, top):
             name = next(name for name in pair if name.startswith(netlist.HOLD_PREFIX))
             pair[name]["type"] = "INV_X1"
         self.assertRegex(self.refusal(invert), "a_quad: (hold_|g_array)")
 
-    def test_a_copy_that_hears_something_else_is_found(self):
+    def test_a_copy_that_hears_something_else_is_found(self) -> None:
         def deafen(pair, top):
             name = next(name for name in top if netlist.COPY_SUFFIX in name)
             top[name] = copy.deepcopy(top[name])
             top[name]["connections"]["D"] = [2]
         self.assertIn("told and its copy", self.refusal(deafen))
 
-    def test_a_lost_cell_and_a_new_one_are_found(self):
+    def test_a_lost_cell_and_a_new_one_are_found(self) -> None:
         self.assertEqual(self.refusal(lambda pair, top: pair.pop("tied")), "a_quad: tied is gone")
         self.assertEqual(self.refusal(lambda pair, top: pair.update(extra=cell("INV_X1", {"A": 4}, {"Y": 90}))), "a_quad: extra is new")
 
-    def test_a_module_that_only_one_of_them_has_is_found(self):
-        for before, after, said in (({"a": {"x": (1,)}}, {}, "a: x is gone"), ({}, {"a": {"x": (1,)}}, "a: x is new")):
+    def test_a_module_that_only_one_of_them_has_is_found(self) -> None:
+        nothing: same_logic.Logic = {}
+        one: same_logic.Logic = {"a": {"x": (1,)}}
+        for before, after, said in ((one, nothing, "a: x is gone"), (nothing, one, "a: x is new")):
             with self.assertRaisesRegex(FlowError, said):
                 same_logic.check(before, after)
 
-    def test_another_constant_and_another_output_are_found(self):
+    def test_another_constant_and_another_output_are_found(self) -> None:
         def tie(pair, top):
             pair["tied"]["connections"]["A2"] = ["0"]
         self.assertIn("a_quad: tied is no longer", self.refusal(tie))

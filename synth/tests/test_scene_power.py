@@ -7,14 +7,16 @@ import unittest
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from unittest import mock
 
 from dtof_synth import configuration, library, run, scene_power, sram_model, standard_cells
 from dtof_synth.activity import OTHER, STREAMING, Activity, Energy, Scope
+from dtof_synth.configuration import Configuration
 from dtof_synth.errors import FlowError
+from dtof_synth.library import Library
 from dtof_synth.power import ClockTree
 
+from .partial import part_of
 from .small_netlists import cell, module
 from .small_results import ROOT, result
 
@@ -23,7 +25,7 @@ NO_POWER = scene_power.Parts(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class Frame(unittest.TestCase):
-    def test_energy_of_a_frame_is_that_of_its_three_parts(self):
+    def test_energy_of_a_frame_is_that_of_its_three_parts(self) -> None:
         # 330 MHz, 30 frames/s: 11e6 clocks. 5e6 at 200 mW, 1e6 at 50 mW, 5e6 idle at 10 mW, or at 4 mW gated:
         # (1000 + 50 + 50) / 330 mJ, or (1000 + 50 + 20) / 330 mJ.
         one = scene_power.ScenePower(NAMED["ezpointer"], "day", 0.1, 0.0, replace(NO_POWER, columns=200.0),
@@ -32,15 +34,20 @@ class Frame(unittest.TestCase):
         self.assertAlmostEqual(one.mean_mw, 30 * 1100 / 330, places=9)
         self.assertAlmostEqual(one.gated_mean_mw, 30 * 1070 / 330, places=9)
 
-    def test_every_part_is_in_the_total(self):
+    def test_every_part_is_in_the_total(self) -> None:
         self.assertEqual(scene_power.Parts(1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 5.0).total, 63.0)
 
 
 class Array(unittest.TestCase):
     """ezPointer: 200 columns of one inverter, whose net toggles; nothing else but control, which is one inverter, too."""
 
+    scratch: tempfile.TemporaryDirectory[str]
+    library: Library
+    configuration: Configuration
+    power: scene_power.ScenePower
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.scratch.cleanup)
         folder = Path(cls.scratch.name)
@@ -58,12 +65,12 @@ class Array(unittest.TestCase):
         some = result("ezpointer")
         some = replace(some, shared=replace(some.shared, area=cls.library.area["INV_X1"], clock_energy_fj=100.0),
                        column_module=replace(some.column_module, clock_energy_fj=7.0), clock_tree=ClockTree(1, 1.0, 1000.0))
-        technology = SimpleNamespace(typical=cls.library, slow=cls.library)
+        technology = part_of(run.Technology, typical=cls.library, slow=cls.library)
         with mock.patch.object(scene_power, "simulate", return_value=(design, counted)), \
                 mock.patch.object(scene_power, "uniform_mw", return_value=0.0):
             cls.power = scene_power.power(cls.configuration, "day", some, folder, technology, folder, 1)
 
-    def test_leakage_is_that_of_all_columns_their_srams_and_control(self):
+    def test_leakage_is_that_of_all_columns_their_srams_and_control(self) -> None:
         leakage = {group.name: group.number("cell_leakage_power")
                    for group in scene_power.liberty.read(self.library.path).children("cell")}
         sram_uw = sram_model.macro(sram_model.Size(2, 160, 14)).leakage
@@ -71,19 +78,19 @@ class Array(unittest.TestCase):
         self.assertAlmostEqual(self.power.leakage_mw, expected, places=9)
         self.assertAlmostEqual(self.power.streaming.leakage, expected, places=9)
 
-    def test_a_frame_has_a_clock_for_each_slot_of_each_pixel_of_an_acquisition(self):
+    def test_a_frame_has_a_clock_for_each_slot_of_each_pixel_of_an_acquisition(self) -> None:
         self.assertEqual(self.power.streaming_clocks, 33_333 * 160 * 2)
         # What the small frame had beside acquisitions, and a result for each of 200 x 160 pixels.
         self.assertEqual(self.power.other_clocks, 250 + 32_000)
 
-    def test_columns_take_what_their_nets_and_cells_do(self):
+    def test_columns_take_what_their_nets_and_cells_do(self) -> None:
         # 500 transitions in 1000 clocks of 200 columns: half of C V^2 of an inverter and 2 um of wire, and the register's energy.
         net_fj = 0.5 * (standard_cells.CINV_FF + self.library.wire_ff_per_sink) * 1.1**2
         cell_fj = standard_cells._path_energy((standard_cells.inverter(),) * 4, 1.1)
         self.assertAlmostEqual(self.power.streaming.columns / (0.5 * 200 * (net_fj + cell_fj) * 330e-6), 1, delta=1e-4)
         self.assertEqual(self.power.other.columns, 0.0)
 
-    def test_the_clock_is_charged_in_every_clock(self):
+    def test_the_clock_is_charged_in_every_clock(self) -> None:
         # 200 columns of 7 fJ, 100 fJ of control, 1000 fF of tree at 1.1 V.
         expected = (200 * 7.0 + 100.0 + 1000.0 * 1.21) * 330e-6
         self.assertAlmostEqual(self.power.streaming.clock, expected, places=9)
@@ -92,11 +99,17 @@ class Array(unittest.TestCase):
 class Pool(unittest.TestCase):
     """poolPointer: 50 quads with an SRAM outside each, 6 engines with an SRAM in each; every scope has energies of choice."""
 
+    scratch: tempfile.TemporaryDirectory[str]
+    library: Library
+    simulate: mock.Mock
+    uniform: mock.Mock
+    power: scene_power.ScenePower
+
     ENERGIES = {"a_quad_netlist": Energy(nets=100.0, cells=50.0, sram=0.0, sram_reads=0.0, gated_clock=20.0),
                 "t": Energy(nets=30.0, cells=10.0, sram=400.0, sram_reads=250.0), "an_engine_netlist": Energy(60.0, 40.0, 80.0, 8.0, 6.0)}
 
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.scratch.cleanup)
         folder = Path(cls.scratch.name)
@@ -118,9 +131,10 @@ class Pool(unittest.TestCase):
         with mock.patch.object(scene_power, "simulate", return_value=(design, counted)) as cls.simulate, \
                 mock.patch.object(scene_power, "uniform_mw", return_value=9.5) as cls.uniform, \
                 mock.patch.object(scene_power.activity, "energy", lambda scope, *_: cls.ENERGIES[scope.module]):
-            cls.power = scene_power.power(NAMED["poolpointer"], "dusk", some, folder, SimpleNamespace(typical=cls.library, slow=cls.library), folder, 5)
+            technology = part_of(run.Technology, typical=cls.library, slow=cls.library)
+            cls.power = scene_power.power(NAMED["poolpointer"], "dusk", some, folder, technology, folder, 5)
 
-    def test_each_part_is_scaled_to_the_array(self):
+    def test_each_part_is_scaled_to_the_array(self) -> None:
         # fJ in 100 clocks of 330 MHz.
         to_mw = 330e-6 / 100
         part = self.power.streaming
@@ -129,43 +143,43 @@ class Pool(unittest.TestCase):
             self.assertAlmostEqual(found, fj * to_mw, places=9)
         self.assertAlmostEqual(self.power.other.columns, 2 * part.columns, places=9)  # the same in half the clocks
 
-    def test_the_clock_is_the_trees_and_what_gates_pass(self):
+    def test_the_clock_is_the_trees_and_what_gates_pass(self) -> None:
         always = (50 * 7.0 + 100.0 + 1000.0 * 1.1**2) * 330e-6
         self.assertAlmostEqual(self.power.streaming.clock, always + (50 * 20.0 + 12 * 6.0) * 330e-6 / 100, places=9)
         self.assertAlmostEqual(self.power.idle_mw, always + self.power.leakage_mw, places=9)
 
-    def test_everything_leaks(self):
+    def test_everything_leaks(self) -> None:
         nw = next(group.number("cell_leakage_power") for group in scene_power.liberty.read(self.library.path).children("cell") if group.name == "INV_X1")
         column, engine = (sram_model.macro(size).leakage for size in (sram_model.Size(1, 100, 232), sram_model.Size(1, 160, 33)))
         expected = (50 * nw + 3 * 4 * nw + 12 * 2 * nw) * 1e-6 + (50 * column + 6 * engine) * 1e-3
         self.assertAlmostEqual(self.power.leakage_mw, expected, places=12)
 
-    def test_what_is_asked_of_the_steps(self):
+    def test_what_is_asked_of_the_steps(self) -> None:
         chosen, finished, _, _, klux, seed = self.simulate.call_args.args
         self.assertEqual((chosen.name, finished, klux, seed), ("poolpointer", {"finished": 1}, 2.0, 5))
         # One net of the quad's one toggles 50 times in 100 clocks.
         self.assertEqual((self.power.column_rate, self.uniform.call_args.args[3], self.power.uniform_mw), (0.5, 0.5, 9.5))
 
-    def test_a_phase_without_a_clock_stops(self):
+    def test_a_phase_without_a_clock_stops(self) -> None:
         counted = Activity({"": Scope("t"), "p0": Scope("a_quad_netlist")}, {STREAMING: 100})
         with mock.patch.object(scene_power, "simulate", return_value=({"modules": {"t": module({}, {}, top=True) | {"cells": {
                 "i": cell("INV_X1", {"A": 3}, {"Y": 4})}}, "a_quad_netlist": module({}, {})}}, counted)), \
                 mock.patch.object(scene_power, "uniform_mw", return_value=0.0), self.assertRaisesRegex(FlowError, "no clock of the phase other"):
             scene_power.power(NAMED["ezpointer"], "day", result("ezpointer"), Path(self.scratch.name),
-                              SimpleNamespace(typical=self.library, slow=self.library), Path(self.scratch.name), 1)
+                              part_of(run.Technology, typical=self.library, slow=self.library), Path(self.scratch.name), 1)
 
 
 class Steps(unittest.TestCase):
     """What goes to the tools, and what the report and the table say."""
 
-    def setUp(self):
+    def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
-        self.technology = SimpleNamespace(typical=SimpleNamespace(path=Path("typical.lib"), wire_load="typical wires"),
-                                          slow=SimpleNamespace(path=Path("slow.lib"), wire_load="slow wires"), kit=Path("kit"), root=ROOT)
+        typical, slow = (part_of(Library, path=Path(f"{corner}.lib"), wire_load=f"{corner} wires") for corner in ("typical", "slow"))
+        self.technology = part_of(run.Technology, typical=typical, slow=slow, kit=Path("kit"), root=ROOT)
 
-    def test_opensta_gets_the_rate_in_the_typical_corner(self):
+    def test_opensta_gets_the_rate_in_the_typical_corner(self) -> None:
         for name, column, modules in (("ezpointer", "u_column", 200), ("poolpointer", "u_quad", 50)):
             with mock.patch.object(scene_power.tools, "write_settings") as written, mock.patch.object(scene_power.tools, "run_sta") as sta, \
                     mock.patch.object(scene_power.power_model, "data_mw", return_value=0.5):
@@ -175,18 +189,18 @@ class Steps(unittest.TestCase):
                 "wire_load": "typical wires", "period": "3.030303", "column": column, "activity": "0.125000"})
             self.assertEqual(sta.call_args.args[0], ROOT / "synth/sta/power.tcl")
 
-    def test_the_small_array_is_a_module_of_columns_with_all_pixels(self):
+    def test_the_small_array_is_a_module_of_columns_with_all_pixels(self) -> None:
         for name, columns, engine in (("ezpointer", 1, None), ("poolpointer", 4, 4)):
             case = scene_power.small_case(NAMED[name], 9)
             self.assertEqual((case.configuration["SRAM_NUM"], case.configuration["PIXELS_PER_SRAM"], case.frames, case.seed), (columns, 160, (64,), 9))
             self.assertEqual(case.configuration.parameters.get("ENGINE_COLUMNS") if engine else None, engine)
 
-    def test_a_clock_streams_if_a_word_is_offered_and_taken(self):
+    def test_a_clock_streams_if_a_word_is_offered_and_taken(self) -> None:
         for ready, valid in ((0, 0), (0, 1), (1, 0), (1, 1)):
             self.assertEqual(scene_power._streams({"tdc_ready_o": ready, "tdc_valid_i": valid}), bool(ready and valid))
         self.assertFalse(scene_power._streams({}))
 
-    def test_the_simulated_array_has_the_finished_column_in_place_of_its_own(self):
+    def test_the_simulated_array_has_the_finished_column_in_place_of_its_own(self) -> None:
         mapped = {"modules": {"a_column": module({}, {}), "t": module({}, {"c": cell("a_column", {}, {})}, top=True)}}
         with mock.patch.object(scene_power, "elaborate") as elaborate, mock.patch.object(scene_power, "map_to_cells", return_value=mapped) as mapping, \
                 mock.patch.object(scene_power.floorplan, "finish") as finish, mock.patch.object(scene_power, "_write_verilog") as write, \
@@ -198,7 +212,7 @@ class Steps(unittest.TestCase):
         self.assertEqual(finish.call_args.args[1:], (self.technology.slow, scene_power.sram_kit.PIN_FF, NAMED["ezpointer"]))
         self.assertEqual((write.call_args.args[3], count.call_args.args[4]), ("static", 50.0))
 
-    def test_a_waveform_is_counted_while_it_is_written(self):
+    def test_a_waveform_is_counted_while_it_is_written(self) -> None:
         """A bench in place of the array's: the part in the netlist toggles three times, the clock rises four times."""
         bench = """module dtof_array_bench; reg clk = 0; wire a; array u_netlist(.clk_i(clk), .tdc_ready_o(a));
           initial begin repeat (8) #5 clk = !clk; $display("DTOF_PASS frames 1 results 1 clocks 4"); $finish(0); end endmodule
@@ -231,7 +245,7 @@ class Steps(unittest.TestCase):
         return [scene_power.ScenePower(NAMED["poolpointer"], light, 0.125, 65.0, streaming, replace(other, columns=columns), 12.0, 10.0, 5_500_000,
                                        1_100_000) for light, columns in (("day", 7.0), ("dusk", 8.0))]
 
-    def test_the_report(self):
+    def test_the_report(self) -> None:
         lines = scene_power.report(self.found(), {"poolpointer": result("poolpointer")}, "0123456789abcdef", 4).splitlines()
         self.assertIn("| poolPointer | day | 0.12 | 70.0 | 65.0 | 5.0 | 1.0 | 60.0 | 40.0 | 10.0 | 186.0 | 6.0 |", lines)
         # 330 MHz, 30 frames/s: 11e6 clocks. (186 x 5.5e6 + 18.6 x 1.1e6 + 12 x 4.4e6) / 330e6 = 3.322 mJ, of 32,000 pixels.
@@ -245,13 +259,13 @@ class Steps(unittest.TestCase):
             if line.startswith("|---"):
                 self.assertEqual(above.count(" | "), line.count("|") - 2, above)
 
-    def test_the_worse_light_decides_a_goal(self):
+    def test_the_worse_light_decides_a_goal(self) -> None:
         found = self.found()
         found[1] = replace(found[1], streaming=replace(found[1].streaming, columns=84.1))
         self.assertIn("| poolPointer: at most 200 mW | 200.1 mW (dusk) | **no** |",
                       scene_power.report(found, {"poolpointer": result("poolpointer")}, "0", 1).splitlines())
 
-    def test_the_table(self):
+    def test_the_table(self) -> None:
         scene_power.write_csv(self.folder / "power.csv", self.found())
         lines = (self.folder / "power.csv").read_text(encoding="utf-8").splitlines()
         self.assertEqual(lines[0].split(",")[5:9], ["phase", "columns_mw", "engines_mw", "control_mw"])
@@ -262,20 +276,22 @@ class Steps(unittest.TestCase):
 
     def run_all(self, fails: str = "") -> tuple[list, list[str], list[str]]:
         """(results, what was said, what began)"""
-        begun, said = [], []
+        begun: list[str] = []
+        said: list[str] = []
 
         def power(chosen, light, _result, run_folder, _technology, folder, _seed):
             begun.append(f"{chosen.name} {light} {run_folder.name} {folder.name}")
             if chosen.name == fails:
                 raise FlowError(f"{fails} fails")
-            return SimpleNamespace(name=f"{chosen.name} {light}", streaming=SimpleNamespace(total=1.5))
+            return part_of(scene_power.ScenePower, configuration=chosen, light=light, streaming=part_of(scene_power.Parts, total=1.5))
 
         chosen = [NAMED[name] for name in ("ezpointer", "poolpointer")]
         with mock.patch.object(scene_power, "power", power), mock.patch.object(scene_power, "ProcessPoolExecutor", ThreadPoolExecutor):
-            found = scene_power.run(chosen, dict.fromkeys(("ezpointer", "poolpointer")), Path("runs"), self.technology, self.folder, 1, 1, said.append)
-        return [one.name for one in found], said, begun
+            found = scene_power.run(chosen, dict.fromkeys(("ezpointer", "poolpointer"), part_of(run.Result)), Path("runs"), self.technology,
+                                    self.folder, 1, 1, said.append)
+        return [f"{one.configuration.name} {one.light}" for one in found], said, begun
 
-    def test_long_simulations_begin_first_and_results_have_the_order_of_the_list(self):
+    def test_long_simulations_begin_first_and_results_have_the_order_of_the_list(self) -> None:
         found, said, begun = self.run_all()
         self.assertEqual(found, ["ezpointer day", "ezpointer dusk", "poolpointer day", "poolpointer dusk"])
         self.assertEqual(begun, [f"{name} {light} {name} {name}_{light}" for name in ("poolpointer", "ezpointer") for light in ("day", "dusk")])
@@ -283,7 +299,7 @@ class Steps(unittest.TestCase):
                                                                               for light in ("day", "dusk")))
         self.assertEqual([line.split("]")[0] for line in said], ["[1/4", "[2/4", "[3/4", "[4/4"])
 
-    def test_the_first_failure_stops_all(self):
+    def test_the_first_failure_stops_all(self) -> None:
         with self.assertRaisesRegex(FlowError, "poolpointer fails"):
             self.run_all("poolpointer")
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from dtof_synth import configuration, floorplan, netlist, simulation, sram_kit, technology
 from dtof_synth.errors import FlowError
-from dtof_synth.run import efforts, elaborate, map_to_cells
+from dtof_synth.run import Technology, efforts, elaborate, map_to_cells
 
 ROOT = Path(__file__).resolve().parents[2]
 NAMED = configuration.load(ROOT / "configurations.toml")
@@ -112,6 +112,12 @@ class RtlBench(unittest.TestCase):
 
 
 class NetlistBench(unittest.TestCase):
+    temporary: tempfile.TemporaryDirectory[str]
+    folder: Path
+    technology: Technology
+    case: simulation.Case
+    design: dict
+
     @classmethod
     def setUpClass(cls) -> None:
         cls.temporary = tempfile.TemporaryDirectory()

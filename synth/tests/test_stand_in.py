@@ -5,11 +5,12 @@ import re
 import tempfile
 import unittest
 from pathlib import Path
-from types import SimpleNamespace
 
 from dtof_synth import endpoints, liberty, library, netlist, sram_kit, stand_in, standard_cells, timing, tools, verilog
 from dtof_synth.errors import FlowError
+from dtof_synth.library import Library
 
+from .partial import part_of
 from .small_netlists import cell, module
 from .small_results import ROOT
 
@@ -43,8 +44,12 @@ def array(gates_on_the_chain: int = 1) -> dict:
 
 
 class StandIns(unittest.TestCase):
+    scratch: tempfile.TemporaryDirectory[str]
+    folder: Path
+    library: Library
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.scratch = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.scratch.cleanup)
         cls.folder = Path(cls.scratch.name)
@@ -72,12 +77,12 @@ class StandIns(unittest.TestCase):
     def timed(self, design: dict) -> tuple[dict, stand_in.StandIn]:
         return stand_in.timed(design, ["c0", "c1", f"c{COLUMNS - 1}"], self.library, self.load)
 
-    def slowest(self, report: timing.Report) -> tuple[float, float, str]:
+    def slowest(self, report: timing.Report) -> tuple[float, float, list[tuple[str, str]]]:
         """Setup, hold, and the slowest path's arrivals, pin by pin."""
         path = report._section("DTOF_PATH_MAX").split("data arrival time")[0]
         return report.slack, report._number("DTOF_SLACK", 1), re.findall(r"([\d.]+) [v^] (\S+)", path)
 
-    def test_every_path_is_as_slow_as_with_all_columns(self):
+    def test_every_path_is_as_slow_as_with_all_columns(self) -> None:
         for gates in (1, 4):
             design = array(gates)
             timed, stand = self.timed(design)
@@ -85,12 +90,12 @@ class StandIns(unittest.TestCase):
             self.assertEqual(real, found)
             self.assertIn(f"c{COLUMNS // 2}/chain0/Y", [pin for _, pin in found[2]])
 
-    def test_a_chain_that_is_longer_is_slower_by_its_gates(self):
+    def test_a_chain_that_is_longer_is_slower_by_its_gates(self) -> None:
         short, long = (self.sta(*self.timed(array(gates))).slack for gates in (1, 2))
         # One more buffer in each of six columns: 0.06 to 0.2 ns in the slow corner.
         self.assertTrue(0.36 < short - long < 1.2, (short, long))
 
-    def test_what_is_inside_is_left_out_and_still_loads(self):
+    def test_what_is_inside_is_left_out_and_still_loads(self) -> None:
         timed, stand = self.timed(array())
         cells = stand.module["cells"]
         self.assertEqual({name for name in cells if not name.startswith(stand_in.LOAD_PREFIX)},
@@ -102,18 +107,18 @@ class StandIns(unittest.TestCase):
         self.assertEqual([cell["type"] for cell in netlist.top(timed)["cells"].values() if "told" in cell["connections"]],
                          ["a_column", "a_column", *[netlist.STUB] * 3, "a_column"])
 
-    def test_a_pin_behind_a_register_that_is_an_end_alone_is_cut(self):
+    def test_a_pin_behind_a_register_that_is_an_end_alone_is_cut(self) -> None:
         column = module({"clk_i": ("input", 2), "told": ("input", 3)}, {
             "end": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 10}), "after": cell("DFFR_X1", {"D": 10, "RN": 3, "CK": 2}, {"Q": 11})})
         stand = stand_in.of(column, self.library, self.load)
         self.assertEqual(stand.cut, {"after/D"})
 
-    def test_a_loop_behind_an_input_ends(self):
+    def test_a_loop_behind_an_input_ends(self) -> None:
         column = module({"clk_i": ("input", 2), "told": ("input", 3)}, {
             "x": cell("NAND2_X1", {"A1": 3, "A2": 11}, {"Y": 10}), "y": cell("INV_X1", {"A": 10}, {"Y": 11})})
         self.assertEqual(set(stand_in.of(column, self.library, self.load).module["cells"]), {"x", "y"})
 
-    def test_bits_of_a_macros_pin_are_cut_one_by_one(self):
+    def test_bits_of_a_macros_pin_are_cut_one_by_one(self) -> None:
         macro = cell("sram_1rw_4x2", {"clk_i": 2, "en_i": 3}, {"rdata_o": 12})
         macro["connections"]["wdata_i"], macro["port_directions"]["wdata_i"] = [3, 10], "input"
         column = module({"clk_i": ("input", 2), "told": ("input", 3)}, {"m": macro, "inside": cell("DFF_X1", {"D": 12, "CK": 2}, {"Q": 10})})
@@ -121,7 +126,7 @@ class StandIns(unittest.TestCase):
         self.assertEqual(stand.cut, {"m/wdata_i[1]"})
         self.assertEqual(stand.module["cells"]["m"]["connections"]["wdata_i"], [3, "0"])
 
-    def test_what_hangs_on_an_output_inside_loads_it(self):
+    def test_what_hangs_on_an_output_inside_loads_it(self) -> None:
         column = module({"clk_i": ("input", 2), "word": ("output", 5)}, {
             "own": cell("DFF_X1", {"D": 10, "CK": 2}, {"Q": 5}), "late": cell("INV_X2", {"A": 5}, {"Y": 21}),
             "end": cell("DFF_X1", {"D": 21, "CK": 2}, {"Q": 10})})
@@ -129,9 +134,9 @@ class StandIns(unittest.TestCase):
         self.assertEqual(set(stand.module["cells"]), {"own", f"{stand_in.LOAD_PREFIX}5"})
         self.assertAlmostEqual(sum(stand.loads.values()), 2 * standard_cells.CINV_FF, delta=0.01)
 
-    def test_load_cells_are_named_by_hundredths_and_are_inputs_alone(self):
+    def test_load_cells_are_named_by_hundredths_and_are_inputs_alone(self) -> None:
         # Two pins of 1 and 2.25 fF and the wire of one of them; a pin alone has none; nothing is missing behind the third net.
-        cells, loads = stand_in._load_cells({5: [1.0, 2.25], 6: [1.0], 7: []}, SimpleNamespace(wire_ff_per_sink=0.5))
+        cells, loads = stand_in._load_cells({5: [1.0, 2.25], 6: [1.0], 7: []}, part_of(Library, wire_ff_per_sink=0.5))
         self.assertEqual(loads, {"load_375": 3.75, "load_100": 1.0})
         self.assertEqual({name: (one["type"], one["connections"]) for name, one in cells.items()},
                          {"load_5": ("load_375", {"A": [5]}), "load_6": ("load_100", {"A": [6]})})
@@ -140,7 +145,7 @@ class StandIns(unittest.TestCase):
         self.assertEqual([(one.name, one.groups[0].name, one.groups[0].get("direction"), one.groups[0].number("capacitance"))
                           for one in written.children("cell")], [("load_100", "A", "input", 1.0), ("load_375", "A", "input", 3.75)])
 
-    def test_a_mere_load_weighs_what_the_column_does_and_has_no_path(self):
+    def test_a_mere_load_weighs_what_the_column_does_and_has_no_path(self) -> None:
         design = array()
         timed, stand = stand_in.timed(design, ["c0", "c1", f"c{COLUMNS - 1}"], self.library, self.load, ["c2"])
         kinds = [cell["type"] for cell in netlist.top(timed)["cells"].values() if "told" in cell["connections"]]
@@ -156,7 +161,7 @@ class StandIns(unittest.TestCase):
         inside = {f"c{index}/{pin}" for index in range(2, COLUMNS - 1) for pin in stand.cut} if stand else set()
         return endpoints.judge("t", report.unchecked, design, self.library, inside)
 
-    def test_every_end_is_counted_and_timed(self):
+    def test_every_end_is_counted_and_timed(self) -> None:
         # A real column has four registers and a gate of the clock; a stand-in two registers whose paths are timed; around
         # them are two registers and a port.
         for design, stand, number in ((array(), None, COLUMNS * 5 + 3), (*self.timed(array()), 3 * 5 + 3 * 2 + 3)):
@@ -164,13 +169,13 @@ class StandIns(unittest.TestCase):
             # The first column's neighbour is a constant.
             self.assertEqual(found, endpoints.Endpoints(number, number - 1, 1, 0))
 
-    def test_a_stand_in_without_paths_is_found(self):
+    def test_a_stand_in_without_paths_is_found(self) -> None:
         timed, stand = self.timed(array())
         del stand.module["cells"]["or"]
         with self.assertRaisesRegex(FlowError, r"t: OpenSTA warns of \d+ unconstrained endpoints: .*c5/gated/D"):
             self.judge(timed, stand, self.sta(timed, stand))
 
-    def test_a_port_without_budget_is_found(self):
+    def test_a_port_without_budget_is_found(self) -> None:
         for sdc, message in (("create_clock -name clk -period $period [get_ports clk_i]\nset_output_delay 0.9 -clock clk [get_ports q]\n",
                               "input port missing set_input_delay: told_i"),
                              ("create_clock -name clk -period $period [get_ports clk_i]\nset_input_delay 0.9 -clock clk [get_ports told_i]\n",
@@ -179,19 +184,19 @@ class StandIns(unittest.TestCase):
             with self.assertRaisesRegex(FlowError, message):
                 self.judge(design, None, self.sta(design, None, sdc))
 
-    def test_a_register_without_clock_is_found(self):
+    def test_a_register_without_clock_is_found(self) -> None:
         design = array()
         del netlist.top(design)["cells"]["last"]["connections"]["CK"]
         with self.assertRaisesRegex(FlowError, "last/CK|last/D"):
             self.judge(design, None, self.sta(design))
 
-    def test_a_loop_is_found(self):
+    def test_a_loop_is_found(self) -> None:
         design = array()
         netlist.top(design)["cells"] |= {"x": cell("NAND2_X1", {"A1": 200, "A2": 4}, {"Y": 201}), "y": cell("INV_X1", {"A": 201}, {"Y": 200})}
         with self.assertRaisesRegex(FlowError, "loop"):
             self.judge(design, None, self.sta(design))
 
-    def test_a_constant_is_no_path(self):
+    def test_a_constant_is_no_path(self) -> None:
         design = array()
         cells = netlist.top(design)["cells"]
         cells["not"] = cell("INV_X1", {"A": 100}, {"Y": 200})

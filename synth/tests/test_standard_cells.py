@@ -18,12 +18,12 @@ def fo4(corner) -> float:
 
 
 class StandardCells(unittest.TestCase):
-    def test_fo4_is_28_ps_typical_and_nangate_ratio_slow(self):
+    def test_fo4_is_28_ps_typical_and_nangate_ratio_slow(self) -> None:
         self.assertAlmostEqual(fo4(TYPICAL), 0.028, places=6)
         self.assertAlmostEqual(fo4(SLOW) / fo4(TYPICAL), 81 / 25.8, places=6)
         self.assertAlmostEqual(fo4(FAST) / fo4(TYPICAL), 16 / 25.8, places=6)
 
-    def test_setup_and_hold_of_a_flip_flop(self):
+    def test_setup_and_hold_of_a_flip_flop(self) -> None:
         # Nangate's 0.029 and 0.017 ns by 28 / 25.8; slow 0.137 and 0.058 ns, fast 0.026 and 0.008 ns by the same.
         for corner, setup, hold in ((TYPICAL, 0.029, 0.017), (SLOW, 0.137, 0.058), (FAST, 0.026, 0.008)):
             cell = next(cell for cell in liberty.parse(standard_cells.library(corner), "generated").children("cell")
@@ -34,14 +34,14 @@ class StandardCells(unittest.TestCase):
             self.assertAlmostEqual(found["setup_rising"], setup * 28 / 25.8, places=4)
             self.assertAlmostEqual(found["hold_rising"], hold * 28 / 25.8, places=4)
 
-    def test_area_anchors(self):
+    def test_area_anchors(self) -> None:
         cells = {cell.name: cell.number("area") for cell in
                  liberty.parse(standard_cells.library(TYPICAL), "generated").children("cell")}
         self.assertAlmostEqual(cells["NAND2_X1"], 0.7056, places=4)
         self.assertGreaterEqual(cells["DFF_X1"], 3.0)
         self.assertLessEqual(cells["DFF_X1"], 3.6)
 
-    def test_delay_grows_with_load_and_slew_in_every_table(self):
+    def test_delay_grows_with_load_and_slew_in_every_table(self) -> None:
         library = liberty.parse(standard_cells.library(SLOW), "generated")
         tables = 0
         for cell in library.children("cell"):
@@ -58,7 +58,7 @@ class StandardCells(unittest.TestCase):
         self.assertGreater(tables, 100)
 
     @unittest.skipUnless(NANGATE.exists(), "../shared/pdk is not present")
-    def test_areas_are_nangates_times_the_shrink(self):
+    def test_areas_are_nangates_times_the_shrink(self) -> None:
         theirs = {cell.name: cell.number("area") for cell in liberty.read(NANGATE).children("cell")}
         compared = 0
         for gate in standard_cells.gates():
@@ -75,7 +75,7 @@ def stages(name: str, output: str, pin: str) -> list[tuple[float, float, float]]
     inputs = int(kind[-1]) if kind[-1].isdigit() else 1
     series, parallel = (inputs + 2) / 3, (2 * inputs + 1) / 3
     last = (1, 1, k)
-    return {
+    shapes: dict[str, list[tuple[float, float, float]]] = {
         "INV": [last], "BUF": [(1, 1, i), last], f"NAND{inputs}": [(inputs, series, k)], f"NOR{inputs}": [(inputs, parallel, k)],
         f"AND{inputs}": [(inputs, series, i), last], f"OR{inputs}": [(inputs, parallel, i), last],
         "AOI21": [(7 / 3, 5 / 3 if pin == "B" else 2, k)], "OAI21": [(8 / 3, 4 / 3 if pin == "B" else 2, k)], "AOI22": [(4, 2, k)],
@@ -83,7 +83,8 @@ def stages(name: str, output: str, pin: str) -> list[tuple[float, float, float]]
         "OAI211": [(11 / 3, 7 / 3 if pin[0] == "A" else 5 / 3, k)], "XOR2": [(2, 5 / 3, 1), (7 / 3, 5 / 3, k)],
         "XNOR2": [(2, 4 / 3, 1), (8 / 3, 4 / 3, k)], "MUX2": [*([(1, 1, 1)] if pin == "S" else []), (4, 2, i), last],
         "HA": [(2, 5 / 3, 1), (7 / 3, 5 / 3, 1)] if output == "S" else [(2, 4 / 3, 1), last],
-        "FA": [*([(4, 2, 1)] if output == "S" else []), (4, 2, 1), last], "CLKGATE": [(2, 4 / 3, 1), last]}[kind]
+        "FA": [*([(4, 2, 1)] if output == "S" else []), (4, 2, 1), last], "CLKGATE": [(2, 4 / 3, 1), last]}
+    return shapes[kind]
 
 
 # Pitches of a NAND2's third, and loads of the pins in inverter inputs.
@@ -107,8 +108,10 @@ INVERTER = 1.511111  # fF: 1.70 x 40 / 45
 
 
 class ByHand(unittest.TestCase):
+    libraries: dict[str, liberty.Group]
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.libraries = {corner.name: liberty.parse(standard_cells.library(corner), corner.name) for corner in (TYPICAL, SLOW, FAST)}
 
     def cells(self, corner: str = "typical") -> dict[str, liberty.Group]:
@@ -121,7 +124,7 @@ class ByHand(unittest.TestCase):
     def numbers(group: liberty.Group, name: str) -> list[list[float]]:
         return [[float(text) for text in row.split(",")] for row in dict(group.attributes)[name]]
 
-    def test_every_cell_and_its_area_and_leakage(self):
+    def test_every_cell_and_its_area_and_leakage(self) -> None:
         expected = {f"{kind}_X{2**step}": pitches for kind, found in PITCHES.items() for step, pitches in enumerate(found)}
         for corner, factors in BY_HAND.items():
             cells = self.cells(corner)
@@ -131,7 +134,7 @@ class ByHand(unittest.TestCase):
                 nw = 79 * pitches / 15 if name.startswith(("DFF", "DLATCH", "CLKGATE")) else 17 / 3 * pitches
                 self.near(cells[name].number("cell_leakage_power"), nw * factors[6], name)
 
-    def test_loads_of_pins(self):
+    def test_loads_of_pins(self) -> None:
         # The first stage of each path; further: the second stage of an XOR, the select's inverter, the gates of adders.
         more = {"XOR2_X1": 2, "XOR2_X2": 4, "XNOR2_X1": 2, "XNOR2_X2": 4}
         adders = {"HA_X1": {"A": 5, "B": 5}, "FA_X1": {"A": 4, "B": 4, "CI": 3}}
@@ -148,11 +151,11 @@ class ByHand(unittest.TestCase):
                     expected = adders.get(name, {}).get(pin, effort * drive + more.get(name, 0) + (1 if name.startswith("MUX2") and pin == "S" else 0))
                     self.near(group.number("capacitance"), expected * INVERTER, f"{name}/{pin}")
 
-    def test_functions_and_senses(self):
+    def test_functions_and_senses(self) -> None:
         cells = self.cells()
         for kind, function in FUNCTIONS.items():
-            output = next(pin for pin in cells[f"{kind}_X1"].children("pin") if pin.get("direction") == "output")
-            self.assertEqual(output.get("function"), function)
+            driven = next(pin for pin in cells[f"{kind}_X1"].children("pin") if pin.get("direction") == "output")
+            self.assertEqual(driven.get("function"), function)
         for name, output, expected in (("NAND2_X1", "Y", "negative_unate"), ("AND3_X2", "Y", "positive_unate"), ("INV_X4", "Y", "negative_unate"),
                                        ("BUF_X1", "Y", "positive_unate"), ("XOR2_X1", "Y", "non_unate"), ("AOI22_X1", "Y", "negative_unate"),
                                        ("FA_X1", "S", "non_unate"), ("FA_X1", "CO", "positive_unate"), ("HA_X1", "CO", "positive_unate")):
@@ -164,7 +167,7 @@ class ByHand(unittest.TestCase):
         self.assertEqual({arc.get("related_pin"): arc.get("timing_sense") for arc in mux.children("timing")},
                          {"A": "positive_unate", "B": "positive_unate", "S": "non_unate"})
 
-    def test_every_delay_slew_and_energy_of_the_gates(self):
+    def test_every_delay_slew_and_energy_of_the_gates(self) -> None:
         arcs = 0
         for corner, (voltage, _, factor, *_) in BY_HAND.items():
             tau = 0.0056 * factor
@@ -197,7 +200,7 @@ class ByHand(unittest.TestCase):
                             self.near(self.numbers(table, "values")[0][0], 0.5 * switched * INVERTER * voltage**2, name)
         self.assertGreater(arcs, 3 * 150)
 
-    def test_registers(self):
+    def test_registers(self) -> None:
         # Clock to Q 0.106 ns, setup 0.029, hold 0.017 by 28 / 25.8, into a fan-out of four of drive 1; other loads as an inverter's.
         for corner, (voltage, _, gate, clock_to_q, setup, hold, _) in BY_HAND.items():
             tau = 0.0056 * gate
@@ -211,7 +214,7 @@ class ByHand(unittest.TestCase):
                                 self.near(value, SLEW * tau * (1 + load) if slew else 0.1150388 * clock_to_q + STEP * tau * (load - 4), name)
                 checks = {arc.get("timing_type"): self.numbers(arc.groups[0], "values")[0][0] for pin in pins.values() for arc in pin.children("timing")
                           if pin.get("direction") == "input"}
-                kinds = ("setup_falling", "hold_falling") if name == "DLATCH_X1" else ("setup_rising", "hold_rising")
+                kinds: tuple[str, ...] = ("setup_falling", "hold_falling") if name == "DLATCH_X1" else ("setup_rising", "hold_rising")
                 if name[:4] in ("DFFR", "DFFS"):
                     kinds += ("recovery_rising", "removal_rising")
                 self.assertEqual(set(checks), set(kinds))
@@ -224,7 +227,7 @@ class ByHand(unittest.TestCase):
                         for table in power.groups:
                             self.near(self.numbers(table, "values")[0][0], 0.5 * ff * voltage**2, f"{name}/{pin}")
 
-    def test_what_registers_do(self):
+    def test_what_registers_do(self) -> None:
         cells = self.cells()
         for name, attributes, pin in (("DFF_X1", {"next_state": "D", "clocked_on": "CK"}, ""),
                                       ("DFFR_X2", {"next_state": "D", "clocked_on": "CK", "clear": "!RN"}, "RN"),
@@ -242,7 +245,7 @@ class ByHand(unittest.TestCase):
         self.assertEqual([(arc.get("related_pin"), arc.get("timing_type"), arc.get("timing_sense")) for arc in latch.children("timing")],
                          [("D", "", "positive_unate"), ("G", "rising_edge", "")])
 
-    def test_a_clock_gate(self):
+    def test_a_clock_gate(self) -> None:
         # Its clock is earlier by NAND2 and inverter into 12 inverters without an input slew: 3 + 13 stages' steps and the edge between them.
         for corner, (voltage, _, gate, _, setup, hold, _) in BY_HAND.items():
             cell = self.cells(corner)["CLKGATE_X1"]
@@ -257,7 +260,7 @@ class ByHand(unittest.TestCase):
             self.assertEqual({(name, role) for name, pin in pins.items() for role in ("clock", "enable", "out")
                               if pin.get(f"clock_gate_{role}_pin") == "true"}, {("CK", "clock"), ("E", "enable"), ("GCK", "out")})
 
-    def test_what_holds_for_the_library(self):
+    def test_what_holds_for_the_library(self) -> None:
         for corner, (voltage, temperature, gate, *_) in BY_HAND.items():
             found = self.libraries[corner]
             self.assertEqual((found.number("nom_voltage"), found.number("nom_temperature"), found.get("default_operating_conditions")),

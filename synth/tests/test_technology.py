@@ -17,7 +17,7 @@ NAMED = configuration.load(ROOT / "configurations.toml")
 
 
 class Sizes(unittest.TestCase):
-    def test_every_memory_of_columns_and_engines_is_needed_by_name(self):
+    def test_every_memory_of_columns_and_engines_is_needed_by_name(self) -> None:
         found = technology.needed_sizes([NAMED[name] for name in ("ezpointer", "ezpointer_bare", "poolpointer")])
         self.assertEqual(found[Size(2, 160, 14)], ["ezpointer"])
         self.assertEqual((found[Size(1, 100, 232)], found[Size(1, 160, 33)]), (["poolpointer"], ["poolpointer"]))
@@ -26,7 +26,7 @@ class Sizes(unittest.TestCase):
 
 
 class Prepared(unittest.TestCase):
-    def setUp(self):
+    def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name) / "a" / "b"  # made by prepare
@@ -36,8 +36,9 @@ class Prepared(unittest.TestCase):
         with mock.patch.object(sram_kit, "write_kit") as self.kit:
             return technology.prepare(ROOT, self.folder, [NAMED["ezpointer"]], **more)
 
-    def test_generated_libraries_have_three_corners(self):
+    def test_generated_libraries_have_three_corners(self) -> None:
         found = self.prepare()
+        assert found.fast is not None
         for corner, cells in (("typical", found.typical), ("slow", found.slow), ("fast", found.fast)):
             self.assertEqual(cells.path, self.folder / f"generic40_{corner}.lib")
             self.assertEqual(cells.path.read_text(encoding="utf-8"), self.texts[corner])
@@ -46,18 +47,18 @@ class Prepared(unittest.TestCase):
         folder, sizes, macro_of = self.kit.call_args.args
         self.assertEqual((folder, sizes, macro_of), (found.kit, sram_kit.read_sizes(ROOT / "synth/sram_sizes.csv"), sram_model.macro))
 
-    def test_a_clock_and_memories_may_be_others(self):
+    def test_a_clock_and_memories_may_be_others(self) -> None:
         found = self.prepare(target_mhz=100.0, macro_of=len, more=[NAMED["ezpointer"].with_parameters("odd", PIXELS_PER_SRAM=77)])
         _, sizes, macro_of = self.kit.call_args.args
         self.assertEqual((found.target_mhz, macro_of), (100.0, len))
         self.assertEqual(sizes, [*sram_kit.read_sizes(ROOT / "synth/sram_sizes.csv"), Size(2, 77, 14)])
 
-    def test_a_size_that_is_not_listed_stops_the_flow(self):
+    def test_a_size_that_is_not_listed_stops_the_flow(self) -> None:
         odd = NAMED["ezpointer"].with_parameters("odd", PIXELS_PER_SRAM=77)
         with self.assertRaisesRegex(FlowError, "odd needs the SRAM sram_1r1w_77x14, which is not in synth/sram_sizes.csv"):
             technology.prepare(ROOT, self.folder, [odd])
 
-    def test_a_library_from_elsewhere_serves_both_corners_and_no_fast_one(self):
+    def test_a_library_from_elsewhere_serves_both_corners_and_no_fast_one(self) -> None:
         plain, packed = self.folder.parent.parent / "plain.lib", self.folder.parent.parent / "packed.lib.gz"
         plain.write_text(self.texts["typical"], encoding="utf-8")
         packed.write_bytes(gzip.compress(self.texts["slow"].encode()))
@@ -70,7 +71,7 @@ class Prepared(unittest.TestCase):
         self.assertEqual((found.typical.path, found.slow.path), (plain, self.folder / "packed.lib"))
         self.assertEqual(found.slow.path.read_text(encoding="utf-8"), self.texts["slow"])
 
-    def test_a_library_that_cannot_be_read_stops_the_flow(self):
+    def test_a_library_that_cannot_be_read_stops_the_flow(self) -> None:
         damaged = self.folder.parent.parent / "damaged.lib.gz"
         damaged.write_bytes(b"no gzip")
         for path, said in ((damaged, "cannot unpack"), (self.folder / "absent.lib", "no such Liberty file")):

@@ -44,9 +44,9 @@ def connections(module: dict) -> set[frozenset]:
 
 
 class Verilog(unittest.TestCase):
-    def test_yosys_reads_the_same_netlist(self):
-        with tempfile.TemporaryDirectory() as folder:
-            folder = Path(folder)
+    def test_yosys_reads_the_same_netlist(self) -> None:
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
             (folder / "array.v").write_text(
                 "(* blackbox *) module AND (input A, input B, output Y); endmodule\n" + verilog.write(design()), encoding="utf-8")
             (folder / "read.tcl").write_text(
@@ -60,7 +60,7 @@ class Verilog(unittest.TestCase):
                 self.assertEqual(found["modules"][name]["ports"]["a_i" if name == "block" else "x_i"].get("offset", 0),
                                  module["ports"]["a_i" if name == "block" else "x_i"].get("offset", 0))
 
-    def test_the_text(self):
+    def test_the_text(self) -> None:
         self.assertEqual(verilog.write(design()), """module block (a_i, y_o);
   input [5:4] a_i;
   output y_o;
@@ -80,7 +80,7 @@ module array (x_i, y_o, handed_on_o, high_o);
 endmodule
 """)
 
-    def test_only_nets_of_wires_keep_their_names(self):
+    def test_only_nets_of_wires_keep_their_names(self) -> None:
         some = design()
         for net, bits, name in (("other", [9], "net_9"), ("wire_9", [9, 10], "net_9"), ("wire_a", [9], "wire_a")):
             some["modules"]["array"]["netnames"] = {net: {"bits": bits}, "wire_port": {"bits": [2]}}
@@ -92,7 +92,7 @@ endmodule
         self.assertNotIn("macro", verilog.write(some))
         self.assertIn("  input [3:3] a_i;\n", verilog.write(some))
 
-    def test_a_name_that_needs_an_escape_is_refused(self):
+    def test_a_name_that_needs_an_escape_is_refused(self) -> None:
         bad = design()
         bad["modules"]["array"]["cells"]["u.v"] = bad["modules"]["array"]["cells"].pop("u")
         with self.assertRaisesRegex(FlowError, "u.v"):
