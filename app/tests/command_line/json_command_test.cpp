@@ -136,7 +136,7 @@ TEST_F(JsonCommand, EveryStudyHasTheOption) {
     EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), rows.size() + 1);
   }
   const auto& accuracy = object.at("tables").at("accuracy.csv");
-  ASSERT_EQ(accuracy.size(), 2U);
+  ASSERT_EQ(accuracy.size(), 4U) << "two distances, by sifh and by the matched filter";
   EXPECT_EQ(accuracy[1].at("distance_m"), 2);
   EXPECT_EQ(accuracy[1].at("readout"), "sifh");
   EXPECT_NE(contents(path("said.txt")), "") << "what is for people is still said";

@@ -21,10 +21,10 @@ std::vector<ReadoutPhase> phases(Readout readout, std::uint32_t acquisitions) {
 TEST(ReadoutPhases, AreThoseOfThePages) {
   EXPECT_THAT(
       phases(Readout::kPoolPointer, 640),
-      ElementsAre(ReadoutPhase{"coarse", 140}, ReadoutPhase{"track", 340}, ReadoutPhase{"pointer", 640}));
+      ElementsAre(ReadoutPhase{"coarse", 140}, ReadoutPhase{"track", 440}, ReadoutPhase{"pointer", 640}));
   EXPECT_THAT(
       phases(Readout::kPoolPointerLean, 640),
-      ElementsAre(ReadoutPhase{"coarse", 100}, ReadoutPhase{"track", 240}, ReadoutPhase{"pointer", 640}));
+      ElementsAre(ReadoutPhase{"coarse", 140}, ReadoutPhase{"track", 340}, ReadoutPhase{"pointer", 640}));
   EXPECT_THAT(phases(Readout::kHisPointer, 3333),
               ElementsAre(ReadoutPhase{"histogram", 1666}, ReadoutPhase{"pointer", 3333}));
   EXPECT_THAT(phases(Readout::kThreeSteps, 600),
