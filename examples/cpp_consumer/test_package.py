@@ -22,7 +22,7 @@ FLAGS = os.environ.get("DTOF_FLAGS", "")
 # Debian's package clang has the name without a version.
 CLANG = next(filter(None, (shutil.which(name) for name in ("clang++", *(f"clang++-{version}" for version in range(24, 13, -1))))), None)
 
-FIND = "cmake_minimum_required(VERSION 3.25)\nproject(consumer LANGUAGES CXX)\nfind_package(dtof 0.2 {how})\n"
+FIND = "cmake_minimum_required(VERSION 3.25)\nproject(consumer LANGUAGES CXX)\nfind_package(dtof 0.3 {how})\n"
 PLUGIN = """\
 #include "dtof/readout/model.hpp"
 #include "dtof/sensor/default_parameters.hpp"
