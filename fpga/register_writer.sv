@@ -24,7 +24,7 @@ module register_writer #(
 );
 
   localparam int COARSE_END = (ACQUISITIONS * 14) >> 6;
-  localparam int TRACK_END = (ACQUISITIONS * 34) >> 6;
+  localparam int TRACK_END = (ACQUISITIONS * 44) >> 6;
   localparam logic [2:0] CONTROL = 3'd4;
 
   logic [2:0] index_q;

@@ -113,7 +113,8 @@ TEST(VideoReader, ReadOutsThatHearOtherColumnsReadWholeEngines) {
     const double depth = scale.depth(to_measurement(results[i], all[1].fraction_bits).position);
     far_off += std::abs(depth - seen[1][i]) > 0.2 ? 1.0 : 0.0;
   }
-  EXPECT_EQ(far_off, 0.0);
+  // The table ends before the range does. A wrong engine would move a sixth of the pixels, its last columns.
+  EXPECT_LE(far_off, 0.001 * static_cast<double>(results.size()));
 }
 
 /// Bit for bit, whatever surrounds the sensor: skew is taken away, and the table is that of a host that
