@@ -2,7 +2,6 @@
 #include "command_line/folder_result.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,13 +9,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "command_line/standard_streams.hpp"
 #include "dtof/io/input_file.hpp"
 
 namespace dtof {
@@ -67,17 +66,6 @@ Json value_of(const std::string& field) {
 /// Standard output of a command: redirected to standard error until the object is printed.
 class FolderResult {
  public:
-  FolderResult() {
-    std::fflush(stdout);
-    standard_output_ = ::dup(STDOUT_FILENO);
-    ::dup2(STDERR_FILENO, STDOUT_FILENO);
-  }
-  FolderResult(const FolderResult&) = delete;
-  FolderResult& operator=(const FolderResult&) = delete;
-  FolderResult(FolderResult&&) = delete;
-  FolderResult& operator=(FolderResult&&) = delete;
-  ~FolderResult() { restore(); }
-
   void print(const std::string& command, const std::string& command_line, const std::filesystem::path& out) {
     Json object;
     object["command"] = command;
@@ -92,20 +80,12 @@ class FolderResult {
         object["tables"][name] = csv_rows(read_file(file));
       }
     }
-    restore();
+    output_.restore();
     // A name of a file may be no UTF-8.
     fmt::print("{}\n", object.dump(2, ' ', false, Json::error_handler_t::replace));
   }
 
  private:
-  void restore() {
-    if (standard_output_ >= 0) {
-      std::fflush(stdout);
-      ::dup2(standard_output_, STDOUT_FILENO);
-      ::close(std::exchange(standard_output_, -1));
-    }
-  }
-
   [[nodiscard]] std::vector<std::filesystem::path> written(const std::filesystem::path& out) const {
     std::vector<std::filesystem::path> files;
     if (std::filesystem::is_directory(out)) {
@@ -119,7 +99,7 @@ class FolderResult {
     return files;
   }
 
-  int standard_output_ = -1;
+  RedirectedOutput output_;
   /// A file's time may be some milliseconds older than the clock.
   std::filesystem::file_time_type begin_ =
       std::filesystem::file_time_type::clock::now() - std::chrono::milliseconds(20);

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 namespace dtof {
 
@@ -28,6 +29,22 @@ std::string flush_standard_output() {
     return std::generic_category().message(errno);
   }
   return failed ? "some of it could not be written" : "";
+}
+
+RedirectedOutput::RedirectedOutput() {
+  std::fflush(stdout);
+  standard_output_ = ::dup(STDOUT_FILENO);
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);
+}
+
+RedirectedOutput::~RedirectedOutput() { restore(); }
+
+void RedirectedOutput::restore() {
+  if (standard_output_ >= 0) {
+    std::fflush(stdout);
+    ::dup2(standard_output_, STDOUT_FILENO);
+    ::close(std::exchange(standard_output_, -1));
+  }
 }
 
 void print_error_line(const std::string& line) noexcept {

@@ -2,11 +2,9 @@
 #include "commands/json_result.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -22,17 +20,7 @@ JsonResult::JsonResult(bool wanted, const std::string& command, const std::strin
   object_["command"] = command;
   object_["command_line"] = command_line;
   if (wanted) {
-    std::fflush(stdout);
-    standard_output_ = ::dup(STDOUT_FILENO);
-    ::dup2(STDERR_FILENO, STDOUT_FILENO);
-  }
-}
-
-JsonResult::~JsonResult() {
-  if (standard_output_ >= 0) {
-    std::fflush(stdout);
-    ::dup2(standard_output_, STDOUT_FILENO);
-    ::close(standard_output_);
+    output_.emplace();
   }
 }
 
@@ -49,12 +37,10 @@ void JsonResult::add_folder(const std::filesystem::path& out) {
 }
 
 void JsonResult::finish() {
-  if (standard_output_ < 0) {
+  if (!output_) {
     return;
   }
-  std::fflush(stdout);
-  ::dup2(standard_output_, STDOUT_FILENO);
-  ::close(std::exchange(standard_output_, -1));
+  output_.reset();
   // A name of a file may be no UTF-8.
   fmt::print("{}\n", object_.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
+#include "command_line/standard_streams.hpp"
 #include "dtof/report/table.hpp"
 
 namespace CLI {
@@ -22,22 +24,16 @@ class JsonResult {
 
   /// `command_line`: as typed.
   JsonResult(bool wanted, const std::string& command, const std::string& command_line);
-  JsonResult(const JsonResult&) = delete;
-  JsonResult& operator=(const JsonResult&) = delete;
-  JsonResult(JsonResult&&) = delete;
-  JsonResult& operator=(JsonResult&&) = delete;
-  /// Restores standard output. A command that failed prints no object.
-  ~JsonResult();
 
   /// Member of the JSON object.
   nlohmann::ordered_json& operator[](const char* key) { return object_[key]; }
   /// Adds `out`, and `files`: the sorted names of the files in it, those in its folders with their path.
   void add_folder(const std::filesystem::path& out);
-  /// Prints the object.
+  /// Prints the object. A command that fails before prints none.
   void finish();
 
  private:
-  int standard_output_ = -1;  ///< -1: --json was not given, or the object is printed
+  std::optional<RedirectedOutput> output_;  ///< none: --json was not given, or the object is printed
   nlohmann::ordered_json object_;
 };
 

@@ -70,8 +70,7 @@ int main(int argc, char** argv) {
       .name = "dtof-faults",
       .description =
           "dtof-faults: what flipped bits, stuck columns, hot and dead pixels and resets do to a frame of "
-          "the "
-          "RTL.",
+          "the RTL.",
       .examples = "A fault that goes farther than it should ends the program with exit code 3.\n",
       .add_commands = add_options};
   return dtof::run_program(program, argc, argv);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -67,6 +68,32 @@ TEST(Thinned, OfThirtyTwoAcquisitionsSevenInTheFirstEighthAndNoneInTheLast) {
       EXPECT_EQ(count, 16 * (7 - eighth)) << position;
     }
   }
+}
+
+/// With one background event per acquisition in the mean (100 klux), the preferred timestamps of a pixel
+/// without a target have this density at t of the range: those of even acquisitions are the first, those of
+/// odd ones the second, or the only one.
+double preferred_density(double t, double events) {
+  const double first = events * std::exp(-events * t);
+  const double second = events * events * t * std::exp(-events * t);
+  const double only = events * std::exp(-events);
+  return 0.5 * first + 0.5 * (second + only);
+}
+
+TEST(Thinned, LeavesAnEvenBackgroundInStrongLight) {
+  constexpr double kEvents = 1.07;
+  std::vector<double> before;
+  std::vector<double> after;
+  for (int eighth = 0; eighth < 8; ++eighth) {
+    int kept = 0;
+    for (std::uint32_t acquisition = 0; acquisition < 512; ++acquisition) {
+      kept += thinned(8192 * eighth, acquisition) ? 0 : 1;
+    }
+    before.push_back(preferred_density((eighth + 0.5) / 8.0, kEvents));
+    after.push_back(before.back() * kept / 512.0);
+  }
+  EXPECT_NEAR(before.front() / before.back(), 1.25, 0.03);
+  EXPECT_NEAR(after.front() / after.back(), 1.0, 0.05);
 }
 
 TEST(Thinned, LevelsTakeTurns) {
