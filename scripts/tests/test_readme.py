@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The examples of README.md and docs/ run as they stand, one after the other."""
+"""The examples of README.md and docs/ run as they stand, one after the other, and print what the pages quote.
+
+A quotation is the indented block behind `<!-- printed by dtof ... -->`: what the last command above that has these words prints. Spaces and the
+width of tables do not matter, and between two paragraphs of the quotation the command may print more.
+"""
 
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -12,8 +17,8 @@ import update_readme
 from figures import store
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-# A command may go on behind a backslash, and some make their input with Python.
-EXAMPLE = re.compile(r"^    ((?:build/cpp/|/usr/bin/python3 )(?:.*\\\n)*.*?)(?:\s+#.*)?$", re.MULTILINE)
+# A command may go on behind a backslash, and some make their input with Python or echo.
+EXAMPLE = re.compile(r"^    ((?:build/cpp/|/usr/bin/python3 |echo )(?:.*\\\n)*.*?)(?:\s+#.*)?$", re.MULTILINE)
 # Those of the main job, which `make publish` copies: no example writes there.
 MAIN_JOB = re.findall(r"^ *run_once (\w+)", (ROOT / "scripts" / "simulate.sh").read_text(encoding="utf-8"), re.MULTILINE)
 PROGRAMS = ROOT / "build" / "cpp"
@@ -22,31 +27,124 @@ PROGRAMS = ROOT / "build" / "cpp"
 ADDING = {ROOT / "docs" / "user" / name for name in ("adding_a_readout.md", "adding_a_rival.md")}
 
 
+QUOTATION = re.compile(r"^<!-- printed by (.+?) -->\n\n((?:(?:    .*)?\n)+)", re.MULTILINE)
+
+
 def examples(document: Path) -> list[str]:
     return EXAMPLE.findall(document.read_text(encoding="utf-8"))
 
 
+def quotations(text: str) -> dict[str, list[str]]:
+    """The paragraphs that a page quotes, by the command that prints them."""
+    found: dict[str, list[str]] = {}
+    for quotation in QUOTATION.finditer(text):
+        words = quotation[1].split()
+        commands = [command for command in EXAMPLE.findall(text[:quotation.start()])
+                    if " ".join(words) in command.replace("build/cpp/bin/", "")]
+        if not commands:
+            raise ValueError(f"no command above has the words '{quotation[1]}'")
+        found.setdefault(commands[-1], []).extend(part for part in re.split(r"\n\s*\n", quotation[2]) if part.strip())
+    return found
+
+
+def missing(paragraphs: list[str], printed: str) -> list[str]:
+    """The quoted paragraphs that a command did not print."""
+
+    def plain(text: str) -> str:
+        return " ".join(re.sub(r"-{2,}:?", "--", text).split())
+
+    return [paragraph for paragraph in paragraphs if plain(paragraph) not in plain(printed)]
+
+
+class Runs:
+    """Runs commands. A command that ran before with the same files is not run again: what it wrote and printed is taken from that run."""
+
+    def __init__(self, kept: Path) -> None:
+        self.kept = kept
+        self.known: dict[tuple, tuple[Path, subprocess.CompletedProcess]] = {}
+
+    def run(self, command: str, folder: Path) -> subprocess.CompletedProcess:
+        words = re.findall(r"[\w./-]+", command)
+        read = tuple((word, (folder / word).read_bytes()) for word in words if (folder / word).is_file() and not word.startswith("build/cpp/"))
+        key = (command, read)
+        if key not in self.known:
+            before = self.files(folder)
+            done = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True)
+            written = self.kept / str(len(self.known))
+            for path, state in self.files(folder).items():
+                if before.get(path) != state:
+                    (written / path).parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copy2(folder / path, written / path)
+            self.known[key] = written, done
+        written, done = self.known[key]
+        if written.is_dir():
+            shutil.copytree(written, folder, dirs_exist_ok=True)
+        return done
+
+    @staticmethod
+    def files(folder: Path) -> dict[Path, tuple]:
+        """Every file, with its time and size. The link to the programs is not followed."""
+        found = (path for path in folder.rglob("*") if path.is_file() and not path.is_symlink())
+        return {path.relative_to(folder): (path.stat().st_mtime_ns, path.stat().st_size) for path in found}
+
+
 @unittest.skipUnless((PROGRAMS / "bin" / "dtof").is_file(), "dtof is not built")
 class Examples(unittest.TestCase):
-    def run_examples(self, document: Path) -> int:
-        with tempfile.TemporaryDirectory() as folder:
-            (Path(folder) / "build").mkdir()
-            (Path(folder) / "build" / "cpp").symlink_to(PROGRAMS)
+    def run_examples(self, document: Path, runs: Runs) -> int:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "build").mkdir()
+            (folder / "build" / "cpp").symlink_to(PROGRAMS)
             commands = examples(document)
+            quoted = quotations(document.read_text(encoding="utf-8"))
             for command in commands:
                 with self.subTest(document=document.name, command=command):
-                    done = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True)
+                    done = runs.run(command, folder)
                     self.assertEqual(done.returncode, 0, done.stderr[-2000:])
-                    for name in MAIN_JOB:
-                        self.assertFalse((Path(folder) / "build" / name).exists(), f"build/{name} is the main job's")
+                    for main_job in MAIN_JOB:
+                        self.assertFalse((folder / "build" / main_job).exists(), f"build/{main_job} is the main job's")
+                    self.assertEqual(missing(quoted.get(command, []), done.stdout + done.stderr), [],
+                                     f"the command now prints\n{done.stdout}{done.stderr}")
             return len(commands)
 
-    def test_readme(self) -> None:
-        self.assertGreaterEqual(self.run_examples(ROOT / "README.md"), 8)
+    def test_every_document(self) -> None:
+        documents = [ROOT / "README.md", *sorted(set(ROOT.glob("docs/**/*.md")) - ADDING)]
+        with tempfile.TemporaryDirectory() as kept:
+            runs = Runs(Path(kept))
+            counts = {document: self.run_examples(document, runs) for document in documents}
+        self.assertGreaterEqual(counts[ROOT / "README.md"], 8)
+        self.assertGreater(sum(counts.values()), counts[ROOT / "README.md"])
 
-    def test_documents(self) -> None:
-        documents = sorted(set(ROOT.glob("docs/**/*.md")) - ADDING)
-        self.assertGreater(sum(self.run_examples(document) for document in documents), 0)
+
+class Quotations(unittest.TestCase):
+    PAGE = ("    build/cpp/bin/dtof list\n    build/cpp/bin/dtof list all\n\ntext\n\n<!-- printed by dtof list -->\n\n"
+            "    | a | b |\n    |--:|---|\n\n    two\n    lines\n\ntext\n")
+
+    def test_a_quotation_belongs_to_the_last_command_above(self) -> None:
+        (command, paragraphs), = quotations(self.PAGE).items()
+        self.assertEqual(command, "build/cpp/bin/dtof list all")
+        self.assertEqual(len(paragraphs), 2)
+        with self.assertRaisesRegex(ValueError, "no command above has the words 'dtof frame'"):
+            quotations(self.PAGE.replace("printed by dtof list", "printed by dtof frame"))
+
+    def test_widths_and_line_ends_do_not_matter_and_words_do(self) -> None:
+        paragraphs = quotations(self.PAGE)["build/cpp/bin/dtof list all"]
+        self.assertEqual(missing(paragraphs, "| a  | b |\n|---:|-----|\nmore\ntwo lines\n"), [])
+        self.assertEqual(missing(paragraphs, "| a  | c |\n|---:|-----|\ntwo lines\n"), [paragraphs[0]])
+
+    def test_a_repeated_command_is_run_once_unless_its_files_differ(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            runs = Runs(Path(name) / "kept")
+            prints = []
+            for number, content in enumerate(["1", "1", "2"]):
+                folder = Path(name) / str(number)
+                folder.mkdir()
+                (folder / "in").write_text(content, encoding="utf-8")
+                done = runs.run("cat in > out; date +%N", folder)
+                prints.append(done.stdout)
+                self.assertEqual((folder / "out").read_text(encoding="utf-8"), content)
+            self.assertEqual(prints[0], prints[1])
+            self.assertNotEqual(prints[0], prints[2])
 
 
 class MainJob(unittest.TestCase):
