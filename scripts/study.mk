@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-.PHONY: claims detection dynamic-range hostile-scenes frames pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
+.PHONY: claims detection dynamic-range hostile-scenes frames leaderboard pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SMALL_SCENES := $(if $(SMALL),--klux 14 --columns 8)
 SMALL_POOL := $(if $(SMALL),--klux 14 --scene planes --seeds 2)
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
@@ -66,6 +66,12 @@ claims: study-program
 	@scripts/reports.py begin claims
 	@$(DTOF_STUDY) claims $(if $(SMALL),--pixels 100) --seed $(SEED) --out $(OUT)/claims
 	@scripts/publish.py claims
+
+leaderboard: configure
+	@ninja -C $(BUILD) dtof_core_module
+	@scripts/reports.py begin leaderboard
+	@scripts/leaderboard.py $(BUILD)/python --seed $(SEED)
+	@scripts/publish.py leaderboard
 
 pareto:
 	@scripts/reports.py begin pareto
