@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Top module of an FPGA that demonstrates dtof_subsystem without a sensor (make fpga, docs/user/integration.md): a generator makes
-// photons on the chip, hisPointer or poolPointer reads them out, and results leave through a serial line, which also receives commands
+// photons on the chip, hisPointer or poolPointer lean reads them out, and results leave through a serial line, which also receives commands
 // that change the targets.
 //
 //   rx_i -> uart_receiver -> target_command -> photon_generator -> dtof_subsystem -> word_sender -> uart_transmitter -> tx_o
@@ -15,12 +15,22 @@
 `default_nettype none
 
 module demonstrator #(
-    parameter int READOUT = dtof_pkg::READOUT_HISPOINTER,  // or dtof_pkg::READOUT_POOLPOINTER
+    parameter int READOUT = dtof_pkg::READOUT_HISPOINTER,  // or dtof_pkg::READOUT_POOLPOINTER: lean
     parameter int NP = 10,
     parameter int COLUMNS = 8,
     parameter int ROWS = 8,
     parameter int ACQUISITIONS = 1000,
-    parameter int CLOCKS_PER_BIT = 12
+    parameter int CLOCKS_PER_BIT = 12,
+    // Of the pool read-out: lean's. Shares are in 64ths of a frame.
+    parameter int GROUP_SIZE = 8,
+    parameter int LABELS = 4,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 0,
+    parameter int ADVANTAGE_WIDTH = 4,
+    parameter int POINTER_SHIFT = 4,
+    parameter int RIVAL_MOVES = 0,
+    parameter int COARSE_SHARE = 14,
+    parameter int TRACK_SHARE = 20
 ) (
     input  logic clk_i,
     input  logic rx_i,
@@ -97,7 +107,9 @@ module demonstrator #(
 
   register_writer #(
       .HAS_SCHEDULE((READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 1 : 0),
-      .ACQUISITIONS(ACQUISITIONS)
+      .ACQUISITIONS(ACQUISITIONS),
+      .COARSE_SHARE(COARSE_SHARE),
+      .TRACK_SHARE (TRACK_SHARE)
   ) u_software (
       .clk_i    (clk_i),
       .rst_ni   (rst_n),
@@ -120,6 +132,15 @@ module demonstrator #(
       .SRAM_NUM       (COLUMNS),
       .PIXELS_PER_SRAM(ROWS),
       .SLOTS          (2),
+      .GROUP_SIZE     (GROUP_SIZE),
+      .LABELS         (LABELS),
+      .SCORE_BITS     (SCORE_BITS),
+      .OFFSET_BITS    (OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES),
+      .COARSE_SHARE   (COARSE_SHARE),
+      .TRACK_SHARE    (TRACK_SHARE),
       .CLOCK_WAITS    (0)  // hdl/technology/fpga has no clock gate
   ) u_subsystem (
       .clk_i          (clk_i),

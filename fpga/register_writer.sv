@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replaces a processor: writes the registers of dtof_subsystem once after reset, so that it reads frames continuously.
 //
-// Order: ACQUISITIONS, WEAK_BELOW, with poolPointer its schedule (COARSE_END, TRACK_END, as dtof_pool_pointer_array recommends),
+// Order: ACQUISITIONS, WEAK_BELOW, with a pool read-out its schedule (COARSE_END, TRACK_END, from the shares),
 // CONTROL with START and CONTINUOUS.
 // Schedule: a write takes the two clocks of APB, and the wait states of the slave. Latency: the first write begins after reset.
 // Cost: five state bits.
@@ -12,6 +12,8 @@
 module register_writer #(
     parameter int HAS_SCHEDULE = 0,
     parameter int ACQUISITIONS = 1000,
+    parameter int COARSE_SHARE = 14,  // 64ths of a frame that the coarse phase takes
+    parameter int TRACK_SHARE = 20,   // and the track phase
     parameter int WEAK_BELOW = 2
 ) (
     input  logic        clk_i,
@@ -23,8 +25,8 @@ module register_writer #(
     input  logic        pready_i
 );
 
-  localparam int COARSE_END = (ACQUISITIONS * 14) >> 6;
-  localparam int TRACK_END = (ACQUISITIONS * 44) >> 6;
+  localparam int COARSE_END = (ACQUISITIONS * COARSE_SHARE) >> 6;
+  localparam int TRACK_END = (ACQUISITIONS * (COARSE_SHARE + TRACK_SHARE)) >> 6;
   localparam logic [2:0] CONTROL = 3'd4;
 
   logic [2:0] index_q;

@@ -47,7 +47,7 @@ class Design:
 
 DESIGNS = (
     Design("demonstrator", "hisPointer", {}),
-    Design("demonstrator_pool", "poolPointer", {"READOUT": 64, "COLUMNS": 2}),
+    Design("demonstrator_pool", "poolPointer lean", {"READOUT": 64, "COLUMNS": 2}),
 )
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from pathlib import Path
 from unittest import mock
 
 import fpga
+from dtof_synth import readouts
 from dtof_synth.errors import FlowError
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -65,19 +66,26 @@ class Fpga(unittest.TestCase):
             text = fpga.report([fpga.Outcome(fpga.DESIGNS[0], FOUND, CELLS, 30, "passed `X`"),
                                 fpga.Outcome(fpga.DESIGNS[1], FOUND, CELLS, 13, "passed `Y`")])  # fmt: skip
         for part in ("3,762 of 7,680 (49 %)", "30 of 32 (94 %)", "68.2 MHz", "62.5 MHz", "| 1,195 |", "1,234 bytes | 5,678 bytes",
-                     "1,000 kbit/s", "| 30 | 13 |", "| 8 x 8 | 2 x 8 |", "* poolPointer: passed `Y`"):  # fmt: skip
+                     "1,000 kbit/s", "| 30 | 13 |", "| 8 x 8 | 2 x 8 |", "* poolPointer lean: passed `Y`"):  # fmt: skip
             self.assertIn(part, text)
 
     def test_the_netlists_tests_expect_what_the_designs_are(self):
         expected = (ROOT / "tb_cpp/tests/demonstrator/CMakeLists.txt").read_text(encoding="utf-8")
         package = (ROOT / "hdl/common/dtof_readouts.svh").read_text(encoding="utf-8")
         for design in fpga.DESIGNS:
-            name = design.readout.replace(" ", "")
-            arguments = [f"k{name[0].upper()}{name[1:]}", str(design.parameters["COLUMNS"]),
+            name = "".join(word[0].upper() + word[1:] for word in design.readout.split())
+            arguments = [f"k{name}", str(design.parameters["COLUMNS"]),
                          *(f"{parameter}={value}" for parameter, value in design.settings.items())]  # fmt: skip
             self.assertIn(f"dtof_demonstrator({design.name} {' '.join(arguments)})", expected)
             if "READOUT" in design.settings:
-                self.assertIn(f"READOUT_{name.upper()} = {design.settings['READOUT']};", package)
+                number = f"READOUT_{design.readout.split()[0].upper()} = {design.settings['READOUT']};"  # lean is poolPointer with other parameters
+                self.assertIn(number, package)
+
+    def test_the_pool_readout_is_lean(self):
+        lean = readouts.load().readouts["poolpointer-lean"].defaults
+        own = fpga.parameters()
+        named = ["GROUP_SIZE", "LABELS", "OFFSET_BITS", "ADVANTAGE_WIDTH", "POINTER_SHIFT", "RIVAL_MOVES", "TRACK_SHARE"]
+        self.assertEqual({name: own[name] for name in named}, {name: int(lean[name]) for name in named})
 
 
 if __name__ == "__main__":

@@ -187,12 +187,26 @@ class Failures(unittest.TestCase):
             project.return_value.route.return_value = results.failed_nets(UNROUTED)
             part = mock.Mock()
             part.name = "column"
+            said: list[str] = []
             with self.assertRaisesRegex(FlowError, "2 nets could not be routed, clk_i"):
-                flow._place_and_route(Path(folder) / "qflow", part, tools.Cells(), 0.6, {})
+                flow._sound_layout(Path(folder) / "qflow", part, tools.Cells(), 0.6, Path(), {}, said.append)
             self.assertEqual(project.call_args.args[-2:], (flow.SEEDS[-1], 0.6))
             self.assertEqual(project.return_value.place.call_count, len(flow.SEEDS))
+            self.assertEqual(len(said), len(flow.SEEDS) - 1)
             project.return_value.route.side_effect = [["clk_i"], []]
-            self.assertEqual(flow._place_and_route(Path(folder) / "qflow", part, tools.Cells(), None, {})[1], flow.SEEDS[1])
+            with mock.patch.object(flow, "_checked", return_value=(0, 0, results.UNIQUE)):
+                self.assertEqual(flow._sound_layout(Path(folder) / "qflow", part, tools.Cells(), None, Path(), {}, said.append)[1], flow.SEEDS[1])
+
+    def test_a_net_that_the_router_left_open_asks_for_another_placement(self) -> None:
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(flow, "Project") as project:
+            project.return_value = self.project([CLEAN, CLEAN], MATCH)
+            project.return_value.route.return_value = []
+            project.return_value.compare.side_effect = [results.lvs_verdict(MISMATCH), results.lvs_verdict(MATCH)]
+            said: list[str] = []
+            made, seed, found = flow._sound_layout(Path(folder) / "qflow", mock.Mock(), tools.Cells(), None, Path(), {}, said.append)
+        self.assertEqual((made, seed, found), (project.return_value, flow.SEEDS[1], (0, 0, results.UNIQUE)))
+        self.assertEqual(len(said), 1)
+        self.assertIn("layout and netlist differ: Netlists do not match", said[0])
 
     def test_exit_status(self) -> None:
         with mock.patch.object(command, "_run", side_effect=FlowError("column: 2 nets could not be routed")), \

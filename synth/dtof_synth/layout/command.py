@@ -105,7 +105,7 @@ def _run(names: list[str], jobs: int) -> None:
             for done in as_completed(waiting):
                 result = done.result()
                 found[waiting[done].name] = result
-                _say(f"{waiting[done].name}: {result.failed_nets} failed nets, {result.rule_errors} design rule errors, "
+                _say(f"{waiting[done].name}: {result.rule_errors} design rule errors, "
                      f"{result.comparison} {sum(result.seconds.values()):.0f} processor seconds")
         except FlowError:
             pool.shutdown(cancel_futures=True)

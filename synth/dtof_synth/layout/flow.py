@@ -22,7 +22,7 @@ from .results import Arrivals, Layout
 from .tools import Cells, Project, processor_seconds
 
 PERIOD_NS = 50.0  # far beyond every path: arrivals count, not slacks
-SEEDS = (1, 2, 3)  # of the placement: another one where a net cannot be routed
+SEEDS = (1, 2, 3)  # of the placement: another one where a check of the layout fails
 REPAIRS = 2
 POOL_DENSITY = 0.5  # at 0.6 the router found no way for a net of a pair of columns
 ARRAY_COLUMNS = 4  # of the array that is elaborated around the column
@@ -51,7 +51,6 @@ class Result:
     area_shrink: float
     lone_vias: int
     seed: int
-    failed_nets: int
     rule_errors: int
     comparison: str
     bare: Arrivals
@@ -112,19 +111,33 @@ def synthesise(configuration: Configuration, technology: Technology, folder: Pat
     return blocks.from_module(name.split("\\")[-1], module, library, macros)
 
 
-def _place_and_route(folder: Path, block: Block, cells: Cells, density: float | None,
-                     seconds: dict[str, float]) -> tuple[Project, int, list[str]]:
-    """First placement in which every net is routed: project, seed, and the unrouted nets."""
+def _place_and_route(folder: Path, block: Block, cells: Cells, density: float | None, seed: int, seconds: dict[str, float]) -> Project:
+    """Places and routes from an empty folder. FlowError if the router leaves a net out."""
+    shutil.rmtree(folder, ignore_errors=True)
+    project = Project(folder, block, cells, seed, density)
+    with processor_seconds(seconds, "placement"):
+        project.place()
+    with processor_seconds(seconds, "routing"):
+        failed = project.route()
+    if failed:
+        raise FlowError(f"{block.name}: {len(failed)} nets could not be routed, {failed[0]} among them (see {folder}/log)")
+    return project
+
+
+def _sound_layout(folder: Path, block: Block, cells: Cells, density: float | None, root: Path, seconds: dict[str, float],
+                  say: Callable[[str], None]) -> tuple[Project, int, tuple[int, int, str]]:
+    """First placement whose layout passes every check: project, seed, and what the checks found. A router that says that all nets are routed may
+    have left one open, which only the comparison of netlists sees. FlowError with the last reason if no seed gives such a layout."""
     for seed in SEEDS:
-        shutil.rmtree(folder, ignore_errors=True)
-        project = Project(folder, block, cells, seed, density)
-        with processor_seconds(seconds, "placement"):
-            project.place()
-        with processor_seconds(seconds, "routing"):
-            failed = project.route()
-        if not failed:
-            return project, seed, failed
-    raise FlowError(f"{block.name}: {len(failed)} nets could not be routed, {failed[0]} among them (see {folder}/log)")
+        try:
+            project = _place_and_route(folder, block, cells, density, seed, seconds)
+            with processor_seconds(seconds, "checks"):
+                return project, seed, _checked(project, root)
+        except FlowError as error:
+            if seed == SEEDS[-1]:
+                raise
+            say(f"{error}; the next placement is tried")
+    raise AssertionError("there is no seed")
 
 
 def _checked(project: Project, root: Path) -> tuple[int, int, str]:
@@ -182,10 +195,8 @@ def lay_out(configuration: Configuration, technology: Technology, cells: Cells, 
     with processor_seconds(seconds, "synthesis"):
         block = synthesise(configuration, technology, folder / "synthesis")
     say(f"{configuration.name}: {len(block.cells)} cells, placing and routing")
-    project, seed, failed = _place_and_route(folder / "qflow", block, cells, POOL_DENSITY if configuration.is_pool else None,
-                                             seconds)
-    with processor_seconds(seconds, "checks"):
-        mended, errors, verdict = _checked(project, technology.root)
+    project, seed, (mended, errors, verdict) = _sound_layout(
+        folder / "qflow", block, cells, POOL_DENSITY if configuration.is_pool else None, technology.root, seconds, say)
     layout = results.read_def(project.path(".def").read_text(encoding="utf-8"))
     per_um = wires.layer_ff_per_um(cells.file("_stdcells.lef").read_text(encoding="utf-8"))
     ff = wires.net_ff(layout, per_um)
@@ -201,4 +212,4 @@ def lay_out(configuration: Configuration, technology: Technology, cells: Cells, 
         sum(sinks[net] for net in signals), sum(layout.length(net) for net in signals),
         sum(sinks[net] for net in inner), sum(layout.length(net) for net in inner), layout.length(blocks.CLOCK),
         sum(ff.get(net, 0.0) for net in signals), (generic_area / block.area(library)) ** 0.5 if generic_area else 0.0,
-        mended, seed, len(failed), errors, verdict, bare, model, routed, block.sram_ports, seconds)
+        mended, seed, errors, verdict, bare, model, routed, block.sram_ports, seconds)

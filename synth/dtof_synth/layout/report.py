@@ -15,7 +15,7 @@ from .wires import NODE_NM, REFERENCE_NM, scaled_um
 
 COLUMNS = ["title", "block", "columns", "cells", "flip_flops", "cell_um2", "die_width_um", "die_height_um", "density",
            "sinks", "wire_um", "wire_um_per_sink", "inner_wire_um_per_sink", "wire_um_per_sink_40nm",
-           "wire_um_per_sink_by_area", "model_um_per_sink", "clock_wire_um", "wire_ff_per_um", "failed_nets", "drc_errors",
+           "wire_um_per_sink_by_area", "model_um_per_sink", "clock_wire_um", "wire_ff_per_um", "drc_errors",
            "lvs", "lone_vias_mended", "placement_seed", "bare_ns", "model_ns", "routed_ns", "bare_mean_ns", "model_mean_ns",
            "routed_mean_ns", "slack_40nm_model_ns", "margin_40nm_model_ns", "slack_40nm_measured_ns", "margin_40nm_measured_ns",
            "margin_40nm_resized_ns", "added_40nm_mm2", *(f"{step}_s" for step in STEPS)]
@@ -41,7 +41,7 @@ def _row(result: Result, slacks: Slacks) -> list[str | int]:
             f"{result.die_width:.1f}", f"{result.die_height:.1f}", f"{result.density:.3f}", result.sinks,
             f"{result.wire:.0f}", f"{per_sink:.2f}", f"{result.inner_per_sink:.2f}", f"{at_node(per_sink):.2f}",
             f"{per_sink * result.area_shrink:.2f}", f"{WIRE_UM_PER_FANOUT:.2f}", f"{result.clock_wire:.0f}",
-            f"{result.wire_ff / result.wire:.3f}", result.failed_nets, result.rule_errors, result.comparison,
+            f"{result.wire_ff / result.wire:.3f}", result.rule_errors, result.comparison,
             result.lone_vias, result.seed,
             *(f"{time:.3f}" for time in (result.bare.longest, result.model.longest, result.routed.longest,
                                          result.bare.mean, result.model.mean, result.routed.mean)),
@@ -75,9 +75,9 @@ def text(results: list[Result], slacks: list[Slacks], picture: str, command: str
     blocks = _table(["block", "cells", "flip-flops", "cell area, um2", "die, um", "density"],
                     [[_name(one), f"{one.cells:,}", str(one.flip_flops), f"{one.cell_area:,.0f}",
                       f"{one.die_width:.0f} x {one.die_height:.0f}", f"{one.density:.1%}"] for one in results])
-    checks = _table(["block", "nets that failed", "design rule errors (Magic)", "layout against netlist (Netgen)",
+    checks = _table(["block", "design rule errors (Magic)", "layout against netlist (Netgen)",
                      "lone vias mended", "placement's seed"],
-                    [[_name(one), str(one.failed_nets), str(one.rule_errors), one.comparison, str(one.lone_vias),
+                    [[_name(one), str(one.rule_errors), one.comparison, str(one.lone_vias),
                       str(one.seed)] for one in results])
     wires = _table(["block", "sinks", "um a sink", "of nets inside", "at 40 nm", "at 40 nm by cell area", "model",
                     "clock's wire, um"],
