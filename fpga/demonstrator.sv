@@ -21,7 +21,7 @@ module demonstrator #(
     parameter int ROWS = 8,
     parameter int ACQUISITIONS = 1000,
     parameter int CLOCKS_PER_BIT = 12,
-    // Of the pool read-out: lean's. Shares are in 64ths of a frame.
+    // The pool read-out's parameters are those of lean. Shares are in 64ths of a frame.
     parameter int GROUP_SIZE = 8,
     parameter int LABELS = 4,
     parameter int SCORE_BITS = 4,
