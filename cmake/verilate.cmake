@@ -56,11 +56,12 @@ add_library(verilated_runtime STATIC
   ${VERILATOR_INCLUDE}/verilated.cpp
   $<$<BOOL:${DTOF_COVERAGE}>:${VERILATOR_INCLUDE}/verilated_cov.cpp>
   ${VERILATOR_INCLUDE}/verilated_threads.cpp)
+set_target_properties(verilated_runtime PROPERTIES POSITION_INDEPENDENT_CODE ON)  # the Python module takes it in
 target_include_directories(verilated_runtime SYSTEM PUBLIC ${VERILATOR_INCLUDE} ${VERILATOR_INCLUDE}/vltstd)
 target_compile_definitions(verilated_runtime
   PUBLIC VM_COVERAGE=$<BOOL:${DTOF_COVERAGE}> VM_SC=0 VM_TRACE=1 VM_TRACE_FST=1
   PRIVATE VL_USER_STOP VL_USER_FINISH VL_USER_FATAL VL_PRINTF=dtof_verilated_printf)
-target_compile_options(verilated_runtime PRIVATE -w
+target_compile_options(verilated_runtime PRIVATE -w $<$<CXX_COMPILER_ID:GNU,Clang>:-fno-semantic-interposition>
   -include ${PROJECT_SOURCE_DIR}/tb_cpp/rtl/verilated_printf.h)
 # Its atomic counters are calls to a library where clang compiles them (make fuzz).
 target_link_libraries(verilated_runtime PUBLIC Threads::Threads $<$<CXX_COMPILER_ID:Clang>:atomic>)

@@ -20,6 +20,7 @@
 #include "src/bindings.hpp"
 #include "src/photons.hpp"
 #include "src/readout.hpp"
+#include "src/rtl_engine.hpp"
 #include "src/work.hpp"
 
 namespace dtof::python {
@@ -42,17 +43,32 @@ py::array_t<double> Results::positions() const {
   return taken_array(std::move(positions), shape());
 }
 
+std::unique_ptr<FrameEngine> make_engine(const std::string& name, const StreamSource& source,
+                                         std::span<const ReadoutParameters> readouts, const Region& region,
+                                         int threads, Progress::Observer observer) {
+  if (name == "model") {
+    return std::make_unique<ModelEngine>(
+        ModelEngine::Settings{.threads = threads, .observer = std::move(observer)});
+  }
+  if (name == "rtl") {
+    return make_rtl_engine(source, readouts, region, threads, std::move(observer));
+  }
+  throw InputError(fmt::format("engine: '{}' is neither model nor rtl", name));
+}
+
 namespace {
 
 Results read_out(const StreamSource& photons, const py::object& readout,
                  const std::optional<std::vector<int>>& columns,
-                 const std::optional<std::pair<int, int>>& rows, int threads, const py::object& progress) {
-  const ReadoutParameters parameters = to_readout(readout, SensorModel());
+                 const std::optional<std::pair<int, int>>& rows, const std::string& engine, int threads,
+                 const py::object& progress) {
+  const std::vector<ReadoutParameters> readouts = {to_readout(readout, SensorModel())};
   Region region = choose_region(photons.columns(), photons.rows(), columns, rows);
-  std::vector<PixelResult> results = do_work(progress, [&](const Progress::Observer& observer) {
-    return ModelEngine({.threads = threads, .observer = observer}).read(photons, parameters, region).results;
+  ReadoutRun run = do_work(progress, [&](const Progress::Observer& observer) {
+    return make_engine(engine, photons, readouts, region, threads, observer)
+        ->read(photons, readouts.front(), region);
   });
-  return {parameters, std::move(region), std::move(results)};
+  return {readouts.front(), std::move(region), std::move(run)};
 }
 
 /// 1 where a result has a distance, row by row.
@@ -175,6 +191,10 @@ void bind_engine(py::module_& module) {
           "columns", [](const Results& r) { return r.region().columns; },
           "The sensor's columns that were read.")
       .def_property_readonly("first_row", [](const Results& r) { return r.region().rows.first; })
+      .def_property_readonly("clocks", &Results::clocks,
+                             "With engine=\"rtl\": clocks of a frame in an array with all of the sensor's "
+                             "columns. None for the model,\nor if only the columns of a narrower last engine "
+                             "of a pool read-out were read.")
       .def("distance_m", &distances, "sensor"_a, "table"_a = py::none(),
            "Distances in m, at least 0, float32 (rows, columns); NaN without a distance. Without a table Eq. "
            "3.11 is used.")
@@ -183,10 +203,11 @@ void bind_engine(py::module_& module) {
                            r.shape()[1], r.shape()[0]);
       });
   module.def("read_out", &read_out, "photons"_a, "readout"_a, py::kw_only(), "columns"_a = py::none(),
-             "rows"_a = py::none(), "threads"_a = 0, "progress"_a = py::none(),
+             "rows"_a = py::none(), "engine"_a = "model", "threads"_a = 0, "progress"_a = py::none(),
              "Reads out a frame with a Readout, or a read-out's name. columns: a list; rows: (first, last + "
-             "1). progress(done, total) is\ncalled every few hundredths of a second. An exception from it, "
-             "or Control-C, ends the work.");
+             "1). engine: model, or rtl, which\nsimulates the RTL with Verilator and gives the same results; "
+             "it builds the array first if the cache lacks it.\nprogress(done, total) is called every few "
+             "hundredths of a second. An exception from it, or Control-C, ends the work.");
 }
 
 }  // namespace dtof::python

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -79,6 +80,7 @@ struct FrameChoice {
   std::optional<std::pair<int, int>> rows;
   std::optional<double> precision_percent;
   int max_frames;
+  std::string engine;
   int threads;
 };
 
@@ -87,10 +89,14 @@ SensorModel to_sensor(const std::variant<std::string, SensorModel>& sensor) {
   return name == nullptr ? std::get<SensorModel>(sensor) : find_sensor(*name);
 }
 
-std::vector<ReadoutParameters> to_readouts(const py::object& asked, const SensorModel& sensor) {
+/// `with_rtl`: "all" are those that have RTL.
+std::vector<ReadoutParameters> to_readouts(const py::object& asked, const SensorModel& sensor,
+                                           bool with_rtl) {
   std::vector<ReadoutParameters> readouts;
   if (py::isinstance<py::str>(asked) && asked.cast<std::string>() == "all") {
-    for (const Readout readout : kAllReadouts) {
+    const std::span<const Readout> all =
+        with_rtl ? std::span<const Readout>(kRtlReadouts) : std::span<const Readout>(kAllReadouts);
+    for (const Readout readout : all) {
       readouts.push_back(to_readout(py::str(std::string(readout_name(readout))), sensor));
     }
     return readouts;
@@ -136,7 +142,7 @@ std::vector<ReadoutFrame> measure_all(const FramePipeline& pipeline, const std::
   std::vector<ReadoutFrame> readouts;
   for (const TabledReadout& readout : tabled) {
     MeasuredFrame frame = pipeline.measure(readout, precision);
-    Results results(frame.parameters, pipeline.region(), frame.run.results);
+    Results results(frame.parameters, pipeline.region(), frame.run);
     readouts.push_back(
         {std::move(results), std::make_shared<const MeasuredFrame>(std::move(frame)), readout.table});
   }
@@ -173,13 +179,13 @@ Frame make_frame(const SceneMap& scene, SensorModel sensor, const std::vector<Re
   const Region region = choose_region(photons.columns(), photons.rows(), choice.columns, choice.rows);
   return do_work(progress, [&](const Progress::Observer& observer) {
     std::size_t before = 0;  // columns of the read-outs that are done
-    const ModelEngine engine(
-        {.threads = choice.threads, .observer = [&](std::size_t done, std::size_t total) {
-           observer(before + done, total * readouts.size());
-           before += done == total && !choice.precision_percent ? total : 0;
-         }});
-    const Fidelity fidelity = frame_fidelity(choice.fidelity, choice.tolerance, photons, readouts, engine);
-    const FramePipeline pipeline(photons, engine,
+    const std::unique_ptr<const FrameEngine> engine = make_engine(
+        choice.engine, photons, readouts, region, choice.threads, [&](std::size_t done, std::size_t total) {
+          observer(before + done, total * readouts.size());
+          before += done == total && !choice.precision_percent ? total : 0;
+        });
+    const Fidelity fidelity = frame_fidelity(choice.fidelity, choice.tolerance, photons, readouts, *engine);
+    const FramePipeline pipeline(photons, *engine,
                                  {.region = region,
                                   .fidelity = fidelity,
                                   .seed = choice.seed,
@@ -200,11 +206,11 @@ Frame frame(const std::variant<std::string, SceneMap>& scene,
             std::uint64_t seed, std::uint32_t frame_number, const TableChoice& table,
             const std::string& fidelity, double tolerance, const std::optional<std::vector<int>>& columns,
             const std::optional<std::pair<int, int>>& rows, const std::optional<double>& precision_percent,
-            int max_frames, int threads, const py::object& progress) {
+            int max_frames, const std::string& engine, int threads, const py::object& progress) {
   const SensorModel model = to_sensor(sensor);
-  return make_frame(to_scene(scene, model), model, to_readouts(readouts, model),
+  return make_frame(to_scene(scene, model), model, to_readouts(readouts, model, engine == "rtl"),
                     {klux, seed, frame_number, table, fidelity, tolerance, columns, rows, precision_percent,
-                     max_frames, threads},
+                     max_frames, engine, threads},
                     progress);
 }
 
@@ -296,11 +302,13 @@ void bind_frames(py::module_& module) {
       "frame", &frame, "scene"_a = "room", "sensor"_a = "thesis", "readouts"_a = "all", py::kw_only(),
       "klux"_a = 14.0, "seed"_a = 1, "frame"_a = 0, "table"_a = "flat", "fidelity"_a = "exact",
       "tolerance"_a = 0.01, "columns"_a = py::none(), "rows"_a = py::none(),
-      "precision_percent"_a = py::none(), "max_frames"_a = 1000, "threads"_a = 0, "progress"_a = py::none(),
+      "precision_percent"_a = py::none(), "max_frames"_a = 1000, "engine"_a = "model", "threads"_a = 0,
+      "progress"_a = py::none(),
       "Makes one frame of a scene as `dtof frame` does: photons, TDC stream, read-outs, look-up tables, "
       "distances, errors.\nArguments are that command's options; scene, sensor and readouts may be names or "
-      "objects. table: flat, none, or a dict of\nLookupTables by the read-outs' names. progress(done, total) "
-      "is\ncalled every few hundredths of a second. An exception from it, or Control-C, ends the work.");
+      "objects. table: flat, none, or a dict of\nLookupTables by the read-outs' names. engine: model, or "
+      "rtl, which simulates\nthe RTL with Verilator; tables are made with the models. progress(done, total) "
+      "is called every few hundredths of a\nsecond. An exception from it, or Control-C, ends the work.");
 }
 
 }  // namespace dtof::python

@@ -4,6 +4,7 @@
 import importlib.util
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -19,6 +20,12 @@ PROGRAM = """
 import dtof
 made = dtof.frame(dtof.Scene("room", columns=4, rows=4), readouts=["sifh"])["sifh"]
 print(dtof.__file__, dtof.__version__, made.results.code.tolist())
+"""
+# An installed module has the texts of the RTL in it; no source tree is beside it.
+RTL_PROGRAM = """
+import dtof
+photons = dtof.event_list([0, 0], [0, 1], [3, 7], [9, 40], columns=1, rows=2, acquisitions=50, np=6)
+print(dtof.read_out(photons, dtof.Readout("sifh", np=6), engine="rtl").code.tolist())
 """
 
 
@@ -38,6 +45,11 @@ class InstallTest(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
             said = subprocess.run([python, "-c", PROGRAM], cwd=folder, capture_output=True, text=True, check=True, env=environment).stdout
+            if shutil.which("verilator"):
+                codes = subprocess.run([python, "-c", RTL_PROGRAM], cwd=folder, capture_output=True, text=True, check=True,
+                                       env=environment | {"DTOF_CACHE": folder}).stdout
+                photons = dtof.event_list([0, 0], [0, 1], [3, 7], [9, 40], columns=1, rows=2, acquisitions=50, np=6)
+                self.assertEqual(codes.strip(), str(dtof.read_out(photons, dtof.Readout("sifh", np=6)).code.tolist()))
             typed = [path.name for path in Path(said.split()[0]).parent.iterdir()]
         self.assertTrue(said.startswith(folder), said)
         made = dtof.frame(dtof.Scene("room", columns=4, rows=4), readouts=["sifh"])["sifh"]
@@ -56,6 +68,16 @@ class InstallTest(unittest.TestCase):
             self.assertEqual(re.findall("-- (No Python module.*)", done.stdout),
                              ["No Python module is built: pybind11 or Python's headers are not here (Debian: pybind11-dev, python3-dev)"])
             self.assertFalse((Path(folder) / "python").exists())
+
+    def test_without_verilator_the_module_is_configured_and_a_line_says_so(self) -> None:
+        line = "-- The Python module will run no RTL: verilator is not here (Debian: verilator)\n"
+        options = ("-DDTOF_PROGRAMS=OFF", "-DDTOF_PYTHON=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_pybind11=OFF")
+        for verilator in ("-DVERILATOR=OFF", *(["-UVERILATOR"] if shutil.which("verilator") else [])):
+            with self.subTest(verilator), tempfile.TemporaryDirectory() as folder:
+                done = configure(folder, *options, verilator)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(line in done.stdout, verilator == "-DVERILATOR=OFF", done.stdout)
+                self.assertEqual((Path(folder) / "tb_cpp").exists(), verilator != "-DVERILATOR=OFF")
 
     def test_the_module_alone_cannot_do_without(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

@@ -4,17 +4,18 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
+#include <memory>
 #include <string>
 
-#include "dtof/core/error.hpp"
-#include "dtof/core/progress.hpp"
+#include "command_line/command_line.hpp"
+#include "command_line/folder_result.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/report/table.hpp"
 #include "random/check.hpp"
 #include "random/draw.hpp"
+#include "rtl/error.hpp"
 #include "rtl/settings.hpp"
 
 namespace {
@@ -26,18 +27,7 @@ struct Options {
   std::string out = "build/random_configurations";
 };
 
-int run(int argc, char** argv) {
-  CLI::App app{
-      "dtof-random: arrays of legal parameters that are drawn, each built and compared with its model on "
-      "frames of\n"
-      "random streams. Writes table.md, and configurations.toml for synth/synth.py --configurations."};
-  Options options;
-  app.add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
-  app.add_option("--first", options.first, "number of the first array")->capture_default_str();
-  app.add_option("--count", options.count, "arrays")->capture_default_str();
-  app.add_option("--out", options.out, "folder to write to")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  dtof::install_interruption_handler();
+void run(const Options& options) {
   dtof::create_output_folder(options.out);
   dtof::Table table({"array", "parameters", "frames", "results", "clocks", "equal to the model"});
   std::string toml = "# SPDX-License-Identifier: Apache-2.0\n# Written by dtof-random.\n";
@@ -65,18 +55,33 @@ int run(int argc, char** argv) {
   const std::filesystem::path folder(options.out);
   dtof::write_file(folder / "table.md", fmt::format("{}\n{}{}{}", verdict, table.markdown(),
                                                     differences.empty() ? "" : "\n", differences));
+  dtof::write_file(folder / "table.csv", table.csv());
   dtof::write_file(folder / "configurations.toml", toml);
   fmt::print("{}Table: {}/table.md\n", verdict, options.out);
-  return wrong == 0 ? 0 : 1;
+  if (wrong != 0) {
+    throw dtof::RtlError("arrays differ from their models: see the table");
+  }
+}
+
+void add_options(CLI::App& app, const std::string& command_line) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("--seed", options->seed, "seed of everything random")->capture_default_str();
+  app.add_option("--first", options->first, "number of the first array")->capture_default_str();
+  app.add_option("--count", options->count, "arrays")->capture_default_str();
+  app.add_option("--out", options->out, "folder to write to")->capture_default_str();
+  dtof::add_folder_results(app, command_line, [options] { run(*options); });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 1;
-  }
+  const dtof::Program program = {
+      .name = "dtof-random",
+      .description =
+          "dtof-random: arrays of legal parameters that are drawn, each built and compared with its model on "
+          "frames of\nrandom streams. Writes table.md, table.csv, and configurations.toml for synth/synth.py "
+          "--configurations.",
+      .examples = "An array that differs from its model ends the program with exit code 3.\n",
+      .add_commands = add_options};
+  return dtof::run_program(program, argc, argv);
 }
