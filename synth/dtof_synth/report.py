@@ -133,7 +133,7 @@ def area(results: dict[str, Result], extra: str, library: str, digest: str) -> s
     return "\n".join([
         "# Area", "", _provenance(library, digest),
         "Cells, flip-flops, kGE and logic um2 are of one column (kGE: NAND2 of the library). Shared logic is in the "
-        "array once, engines and fan-out trees to the columns included. Of the pool read-outs an SRAM serves two columns. "
+        "array once, engines and fan-out trees to the columns included. An SRAM of a pool read-out serves four columns. "
         "Total: cells and macros, as below.", "",
         _table(AREA_HEADER, _area_rows(main)), *notes, "",
         "## What the area is made of", "",
