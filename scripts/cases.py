@@ -360,7 +360,7 @@ def torn_settings(case: Case) -> None:
         last = "write(dtof_registers_pkg::TRACK_END, 8);"
         require(bench.count(last) == 1, f"torn_bench.sv: no '{last}'")
         bench = bench.replace(last, last + " write(dtof_registers_pkg::COMMIT, 1);")
-    # The bench never says where an acquisition ends, which the line buffer wants to hear.
+    # The bench never says where an acquisition ends, which the line buffer needs.
     require(bench.count(".s_axis_tlast_i(1'b0)") == 1, "torn_bench.sv has another tlast")
     bench = bench.replace(".s_axis_tlast_i(1'b0)", ".s_axis_tlast_i(beat == 2 * ROWS - 1)")
     bench = bench.replace("  dtof_subsystem #(", """  int beat = 0;

@@ -5,8 +5,8 @@
 `list_models.py readouts dtof_array`: the read-outs of configurations.toml, with many columns.
 `list_models.py waveforms dtof_array`: the same to look at: with one column and waveforms.
 `list_models.py variants dtof_array`: its variants, with one column.
-`list_models.py readouts|waveforms dtof_pool_pointer_array`: the engines that the read-outs' columns cut into: columns of one
-hear each other, and an array that has other columns reads something else. Those without waveforms also have an engine of
+`list_models.py readouts|waveforms dtof_pool_pointer_array`: the engines that the read-outs' columns cut into: the columns of one
+depend on each other, so that an array of other columns reads something else. Those without waveforms also have an engine of
 few columns.
 """
 

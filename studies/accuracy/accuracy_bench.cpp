@@ -51,8 +51,9 @@ RunIdentity run_identity(std::uint64_t seed, Use use, std::size_t point, std::si
 
 bool hears_other_columns(const ReadoutParameters& readout) { return readout.columns_together() > 1; }
 
-/// Columns of a pixel's engine, fewer than a sensor's have, for the photons of them all are drawn for each
-/// pixel: its own pair and one on either side, all that a pixel hears of itself.
+/// Columns of a pixel's engine: the pixel's own pair and one pair on either side, on which its result
+/// depends. A sensor's engines have more columns, but the photons of all these columns are drawn for each
+/// pixel.
 int columns_of_engine(std::span<const ReadoutParameters> readouts) {
   constexpr int kPairs = 3;
   int columns = 1;

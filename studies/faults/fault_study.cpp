@@ -35,13 +35,13 @@ int pick(CounterRandom& random, int count) {
 /// Whether this column, or engine, has a fault in this frame: two of three have one, in turns.
 bool has_fault(int place, int frame) { return (place + frame) % 3 != 0; }
 
-/// A column with a fault, and the columns that hear it.
+/// A column with a fault, and the columns whose results depend on this column.
 struct FaultPlace {
   int column;
   ColumnRange reach;
 };
 
-/// An SRAM with a fault, and the columns that hear it.
+/// An SRAM with a fault, and the columns whose results depend on this SRAM.
 struct FaultySram {
   RtlSram sram;
   ColumnRange reach;
@@ -80,7 +80,7 @@ class FaultPlan {
   }
 
  private:
-  /// Columns that hear each other have one fault between them.
+  /// Returns one fault for each set of columns whose results depend on each other.
   std::vector<FaultPlace> places() {
     const int together = subject_.parameters().columns_together();
     std::vector<FaultPlace> found;
@@ -92,7 +92,8 @@ class FaultPlan {
     return found;
   }
 
-  /// No column hears two of them. An SRAM that lies across the border of two engines is heard by both.
+  /// No column depends on two of these SRAMs. The columns of two engines depend on an SRAM that lies across
+  /// their border.
   [[nodiscard]] std::vector<FaultySram> faulty_srams() const {
     std::vector<FaultySram> found;
     for (std::size_t i = 0; i < srams_.size(); ++i) {

@@ -36,8 +36,8 @@ constexpr double kLeastFound = 0.5;
 
 bool hears_other_columns(const ReadoutParameters& readout) { return readout.columns_together() > 1; }
 
-/// A column of pixels that all look at one target; where columns hear each other, the right one of a pair,
-/// whose left one has the photons of another frame.
+/// A column of pixels that all look at one target; where columns depend on each other, the right one of a
+/// pair, whose left one has the photons of another frame.
 using Measurements = std::vector<std::vector<std::vector<Measurement>>>;  // read-out, column, row
 
 Measurements read(const WalkSettings& settings, std::span<const PixelTarget> columns, std::uint32_t frame) {

@@ -58,7 +58,7 @@ TEST(VideoReader, OnlyThePriorRemembersTheLastFrame) {
     return a.pixels == b.pixels && a.above_3_percent == b.above_3_percent && a.rmse == b.rmse;
   };
   EXPECT_TRUE(same(still[0][1], still[0][2])) << "there is no frame before the first";
-  EXPECT_FALSE(same(still[1][1], still[1][2])) << "the prior is heard in the second";
+  EXPECT_FALSE(same(still[1][1], still[1][2])) << "the prior changes the second frame";
   for (std::size_t e = 0; e < 3; ++e) {
     EXPECT_EQ(still[0][e].pixels, 36U * 32U);
     EXPECT_TRUE(same(still[1][e], cut[1][e])) << "until the cut both videos are one";
