@@ -285,14 +285,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (ValueError, OSError) as error:
         print(f"leaderboard: error: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("leaderboard: interrupted", file=sys.stderr)
+        return 130
     if terminal:
         print("\r\033[K", end="", file=sys.stderr)
     text = f"{described(settings)}\n{table(rows)}"
     print(text, end="")
     if options.out is not None:
-        options.out.mkdir(parents=True, exist_ok=True)
-        (options.out / "leaderboard.md").write_text(text, encoding="utf-8")
-        write_csv(rows, options.out / "leaderboard.csv")
+        try:
+            options.out.mkdir(parents=True, exist_ok=True)
+            (options.out / "leaderboard.md").write_text(text, encoding="utf-8")
+            write_csv(rows, options.out / "leaderboard.csv")
+        except OSError as error:
+            print(f"leaderboard: error: {error}", file=sys.stderr)
+            return 4
     return 0
 
 

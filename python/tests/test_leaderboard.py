@@ -54,7 +54,8 @@ class Figures(unittest.TestCase):
         self.assertEqual([row.pixels for row in rows], [2 * 24] * 3)
 
     def test_the_front_by_hand(self) -> None:
-        rows = leaderboard.measure([entry("good", 16, 1.0), entry("small", 4, 1.05, 1.0), entry("beaten", 16, 1.05), entry("unknown", None, 1.0)], SMALL)
+        rows = leaderboard.measure([entry("good", 16, 1.0), entry("small", 4, 1.05, 1.0), entry("beaten", 16, 1.0, 1.0, 1.0, 1.05),
+                                    entry("unknown", None, 1.0)], SMALL)
         self.assertEqual({row.entry.title for row in rows if leaderboard.on_the_front(row, rows)}, {"good", "small"})
         self.assertIn("| **good** | model file | 16 | 0.00 |", leaderboard.table(rows))
         self.assertIn("| unknown | model file | - | 0.00 |", leaderboard.table(rows))
@@ -125,6 +126,16 @@ class ModelFiles(unittest.TestCase):
         code, said, errors = run(self.file(model), "--beside", "none", "--klux", "2", "--scene", "room", "--frames", "2", "--rows", "8")
         self.assertEqual((code, errors), (0, ""))
         self.assertIn("| 1 | **median** | model file | 10 |", said)
+
+    def test_an_interrupt_ends_with_one_line(self) -> None:
+        model = self.file("TITLE = 'x'\nBITS_PER_PIXEL = 1\ndef read_out(photons, sensor):\n    raise KeyboardInterrupt\n")
+        self.assertEqual(run(model, "--beside", "none", "--klux", "2", "--scene", "flat", "--rows", "2"), (130, "", "leaderboard: interrupted\n"))
+
+    def test_a_folder_that_cannot_be_written(self) -> None:
+        model = self.file("import numpy\nTITLE = 'x'\nBITS_PER_PIXEL = 1\ndef read_out(photons, sensor):\n"
+                          "    return numpy.full((photons.rows, photons.columns), photons.column(0).timestamp.mean())\n")
+        code, _, errors = run(model, "--beside", "none", "--klux", "2", "--scene", "flat", "--rows", "2", "--frames", "2", "--out", f"{model}/out")
+        self.assertEqual((code, errors.count("\n")), (4, 1), errors)
 
     def test_refusals(self) -> None:
         good = "TITLE = 'x'\nBITS_PER_PIXEL = 1\n"
