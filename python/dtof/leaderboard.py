@@ -90,15 +90,20 @@ def middle(name: str, settings: Settings, seed: int) -> _core.Scene:
     return _core.Scene.from_depth(whole.depth_m[rows, columns], whole.reflectivity[rows, columns])
 
 
-def fitted_table(read_out: Callable[[Sequence[_core.Photons]], Positions], settings: Settings, klux: float, frames: int = 1) -> _core.LookupTable:
+def has_truth(scene: _core.Scene) -> npt.NDArray[np.bool_]:
+    """Which pixels (rows, columns) have a true distance: a scene says 0 where nothing is."""
+    return np.isfinite(scene.depth_m) & (scene.depth_m > 0)
+
+
+def fitted_table(read_out: Callable[[Sequence[_core.Photons]], Positions], settings: Settings, klux: float) -> _core.LookupTable:
     """Fits the look-up table of a read-out to flat targets of the sensor's reflectivity, spread over the range."""
     distances = np.linspace(0.1, 0.92 * settings.sensor.range_m, FLAT_DISTANCES)
     sensor = settings.sensor.replace(columns=1, rows=FLAT_PIXELS)
     positions = []
     for distance in distances:
         flat = _core.Scene.from_depth(np.full((FLAT_PIXELS, 1), distance), sensor.default_reflectivity)
-        photons = [_core.photons(flat, sensor, klux, seed=settings.seed, frame=FLAT_FRAME + number) for number in range(frames)]
-        positions.append(np.ravel(read_out(photons)))
+        photons = _core.photons(flat, sensor, klux, seed=settings.seed, frame=FLAT_FRAME)
+        positions.append(np.ravel(read_out([photons])))
     return _core.LookupTable.fit(distances.tolist(), np.array(positions))
 
 
@@ -175,10 +180,12 @@ def measure(entries: Sequence[Entry], settings: Settings, progress: Callable[[in
             tables.append(entry.table(klux))
             step()
         shares: list[dict[str, list[float]]] = [{name: [] for name in LIMITS} for _ in entries]
-        pixels = 0
+        pixels = []  # of each frame
         for number in range(settings.frames):
             scenes = [middle(name, settings, settings.seed + number) for name in settings.scenes]
-            pixels = sum(int(np.isfinite(scene.depth_m).sum()) for scene in scenes)
+            pixels.append(sum(int(has_truth(scene).sum()) for scene in scenes))
+            if not pixels[-1]:
+                raise ValueError(f"no pixel of the scenes {', '.join(settings.scenes)} has a true distance in the part that is read")
             most = max(entry.frames for entry in entries)
             photons = [[_core.photons(scene, sensor, klux, seed=settings.seed + number, frame=most * place + back) for back in reversed(range(most))]
                        for place, scene in enumerate(scenes)]
@@ -187,15 +194,16 @@ def measure(entries: Sequence[Entry], settings: Settings, progress: Callable[[in
                 for scene, frames in zip(scenes, photons):
                     positions = entry.read_out(frames[most - entry.frames:])
                     measured = np.where(np.isnan(positions), np.nan, table.distance(np.nan_to_num(positions)))
-                    error = np.abs(measured - scene.depth_m) / scene.depth_m
+                    # A pixel without a distance is wrong; one without a true distance is not judged.
+                    judged = has_truth(scene)
+                    error = np.abs(measured[judged] - scene.depth_m[judged]) / scene.depth_m[judged]
                     for name, limit in LIMITS.items():
-                        # A pixel without a distance is wrong; one without a true distance is not judged.
-                        wrong[name] += int(np.sum(~(error <= limit) & np.isfinite(scene.depth_m)))
+                        wrong[name] += int(np.sum(~(error <= limit)))
                 for name in LIMITS:
-                    own[name].append(wrong[name] / pixels)
+                    own[name].append(wrong[name] / pixels[-1])
                 step()
-        rows += [Row(entry, klux, pixels * settings.frames,
-                     {name: _core.estimate_share_of_frames(np.array(values), pixels) for name, values in own.items()})
+        rows += [Row(entry, klux, sum(pixels),
+                     {name: _core.estimate_share_of_frames(np.array(values), min(pixels)) for name, values in own.items()})
                  for entry, own in zip(entries, shares)]
     return sorted(rows, key=lambda row: (row.klux, row.shares["above_3_percent"].value))
 
@@ -275,6 +283,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if options.frames < 2:
             raise ValueError(f"--frames: an interval needs at least 2 frames, not {options.frames}")
+        if not 0 <= options.seed < 2**63:
+            raise ValueError(f"--seed: {options.seed} is not within 0 to 2^63 - 1")
         settings = Settings(_core.Sensor(options.sensor), tuple(options.klux), tuple(options.scene), options.columns, options.rows, options.frames,
                             options.seed)
         entries = [*(model_entry(file, settings) for file in options.models), *chosen(options.beside, settings, dict(options.bits))]

@@ -5,11 +5,13 @@ import contextlib
 import csv
 import io
 import re
+import shutil
 import tempfile
 import unittest
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, cast
+from unittest import mock
 
 import numpy as np
 
@@ -73,6 +75,18 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(row.shares["above_3_percent"].value, float(np.mean(shares)), 9)
         self.assertGreater(row.shares["above_3_percent"].value, 0.0)
 
+    def test_a_pixel_without_a_true_distance_is_not_judged(self) -> None:
+        settings = leaderboard.Settings(klux=(5.0,), scenes=("sky",), columns=34, rows=40, frames=2)
+        row, = leaderboard.measure([entry("two", 1, 2.0)], settings)
+        truth = dtof.Scene("sky", dtof.Sensor("thesis")).depth_m[60:100, 83:117]
+        known = truth[truth > 0]
+        self.assertLess(known.size, truth.size)
+        self.assertEqual(row.pixels, 2 * known.size)
+        self.assertAlmostEqual(row.shares["above_3_percent"].value, float(np.mean(np.abs(known - 2.0) > 0.06)), 9)
+        nothing = dtof.Scene.from_depth(np.zeros((40, 34)))
+        with mock.patch.object(leaderboard, "middle", return_value=nothing), self.assertRaisesRegex(ValueError, "no pixel of the scenes sky has a true"):
+            leaderboard.measure([entry("two", 1, 2.0)], settings)
+
     def test_the_middle_is_the_middle(self) -> None:
         whole = dtof.Scene("planes", dtof.Sensor("thesis"), seed=3)
         part = leaderboard.middle("planes", leaderboard.Settings(columns=34, rows=64), 3)
@@ -96,7 +110,7 @@ class Figures(unittest.TestCase):
 class ModelFiles(unittest.TestCase):
     def file(self, text: str) -> str:
         folder = tempfile.mkdtemp()
-        self.addCleanup(lambda: __import__("shutil").rmtree(folder))
+        self.addCleanup(shutil.rmtree, folder)
         (Path(folder) / "mine.py").write_text(text, encoding="utf-8")
         return str(Path(folder) / "mine.py")
 
@@ -119,6 +133,19 @@ class ModelFiles(unittest.TestCase):
         self.assertEqual((mine["kind"], mine["bits_per_pixel"], ez["bits_per_pixel"], mine["pixels"]), ("model file", "320", "14", "1088"))
         self.assertLess(float(mine["above_3_percent"]), 0.2)
         self.assertGreater(float(ez["above_3_percent"]), float(mine["above_3_percent_high"]))
+
+    def test_a_readout_of_the_project_as_a_model_file_has_the_same_figures(self) -> None:
+        """The model file's look-up table is fitted in Python, the read-out's by the library."""
+        model = self.file("import dtof, numpy\nTITLE = 'copy'\nBITS_PER_PIXEL = None\ndef read_out(photons, sensor):\n"
+                          "    made = dtof.read_out(photons, dtof.Readout('sifh', sensor))\n"
+                          "    return numpy.where(made.has_distance, made.position, numpy.nan)\n")
+        settings = leaderboard.Settings(klux=(14.0,), scenes=("room",), columns=34, rows=32)
+        rows = leaderboard.measure([leaderboard.model_entry(Path(model), settings), leaderboard.readout_entry("sifh", settings)], settings)
+        copy, original = sorted(rows, key=lambda row: row.entry.kind)
+        self.assertEqual((copy.entry.title, original.entry.title), ("copy", "SiFH"))
+        for name in leaderboard.LIMITS:
+            low, high = original.shares[name].interval
+            self.assertTrue(low <= copy.shares[name].value <= high, f"{name}: {copy.shares[name].value} is not within {low} to {high}")
 
     def test_the_page_has_a_model_that_runs(self) -> None:
         page = (ROOT / "docs/user/leaderboard.md").read_text(encoding="utf-8")
@@ -149,6 +176,7 @@ class ModelFiles(unittest.TestCase):
         self.refused("TITLE = 'a'\nBITS_PER_PIXEL = 'many'\nread_out = len\n", "BITS_PER_PIXEL is a number of bits or None, not 'many'")
         for arguments, reason in [(("/nowhere/mine.py",), "/nowhere/mine.py: no such file"), (("--beside", "nobody"), "unknown read-out or rival 'nobody'"),
                                   (("--beside", "none"), "nothing to rank"), (("--frames", "1"), "at least 2 frames, not 1"),
+                                  (("--seed", "-1"), "--seed: -1 is not within"),
                                   (("--columns", "400"), "400 x 64 pixels do not fit"), (("--scene", "roome"), "roome")]:
             code, out, errors = run(*arguments)
             self.assertEqual((code, out, errors.count("\n")), (1, "", 1), errors)
