@@ -25,8 +25,8 @@ constexpr double kTen = 0.10;
 constexpr double kNearTarget = 0.3;  // m: a bias is the mean of the errors up to here
 constexpr double kMicrometres = 1e6;
 
-/// Both references of one column. A measurement's confidence is the score. `returns`: what they are told; may
-/// be empty.
+/// Both references of one column. A measurement's confidence is the score. `returns`: mean events
+/// of a frame without a target, which the references count as background; may be empty.
 std::array<std::vector<Measurement>, 2> read_references(const PhotonSource& source, int column,
                                                         const ColumnStream& stream,
                                                         const std::vector<double>& returns = {}) {

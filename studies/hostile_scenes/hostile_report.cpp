@@ -80,18 +80,17 @@ std::string told_section(const HostileSettings& settings, const HostileScenes& s
     return "";
   }
   std::string text =
-      "\n## Told of the sensor\n\n"
-      "What a user sets who knows the sensor and what is around it. *Cover glass and fog*: the pool "
-      "read-outs "
-      "have their TEMPLATE registers from a frame in the dark without a target "
-      "(docs/reference/poolpointer.md, Template); the matched filters count that frame's mean events as "
-      "background. They are no bound here: they expect the signal of a target at 3 m, and a fainter one is "
-      "less likely to them than strong crosstalk. The coarse histogram has nothing to be told with but a "
-      "gate. *Skew*: S1 of the pool read-outs is off (OUTPUT.SMOOTH), for it draws neighbours together whose "
-      "skews differ. *A laser that is silent at first*: SETTLE: the silent acquisitions are dropped at the "
-      "frame's "
-      "start, and ACQUISITIONS are as many less, so that a frame takes no longer; for all alike. *Motion*: "
-      "judged at the own instant (below). Pixels with a target above 3 % / above 10 %, in %:\n";
+      "\n## With settings for the sensor and its surroundings\n\n"
+      "Settings of a user who knows the sensor and its surroundings. *Cover glass and fog*: the TEMPLATE "
+      "registers of the pool read-outs come from a frame in the dark without a target "
+      "(docs/reference/poolpointer.md, Template). The matched filters count the mean events of that frame as "
+      "background. The matched filters are no bound here: they expect the signal of a target at 3 m, and "
+      "rate a fainter target as less likely than strong crosstalk. The coarse histogram has no setting "
+      "except a gate. *Skew*: S1 of the pool read-outs is off (OUTPUT.SMOOTH), because S1 draws neighbours "
+      "together although their skews differ. *A laser that is silent at first*: SETTLE drops the silent "
+      "acquisitions at the frame's start, and ACQUISITIONS is smaller by the same number, so that a frame "
+      "takes no longer; this holds for all read-outs. *Motion*: each read-out is judged at its own instant "
+      "(below). Pixels with a target above 3 % / above 10 %, in %:\n";
   for (const double klux : settings.klux) {
     text += fmt::format("\n{:g} klux:\n\n{}", klux, told_table(settings, study, klux));
   }
@@ -274,8 +273,8 @@ std::string hostile_report(const HostileSettings& settings, const HostileScenes&
           list_or(behind_coarse_histogram(settings, study, name, false), "no condition"));
       if (!told_conditions(settings).empty()) {
         report += fmt::format(
-            "* {} that is told of the sensor has more than twice the errors of a coarse histogram that is, "
-            "too, under: {}. Above 3 % it has, in % at {:g} klux: {}.\n",
+            "* With these settings for both, {} has more than twice the coarse histogram's errors under: {}. "
+            "Its pixels above 3 %, in % at {:g} klux: {}.\n",
             hostile_title(name),
             list_or(behind_coarse_histogram(settings, study, name, true), "no condition"),
             fmt::join(settings.klux, " / "), told_sentence(settings, study, name));
@@ -283,9 +282,9 @@ std::string hostile_report(const HostileSettings& settings, const HostileScenes&
     }
   }
   report += fmt::format(
-      "* With the threshold that lets at most {:g} % of a clear sky's pixels pass at each of the lights, of "
-      "the "
-      "pixels with a target in clear conditions are kept and within 3 %, in % at {:g} klux: {}.\n\n",
+      "* A threshold that at most {:g} % of a clear sky's pixels pass at each light leads to these shares "
+      "of the pixels with a target, in clear conditions, that pass it and are within 3 %, in % at {:g} klux: "
+      "{}.\n\n",
       100.0 * settings.false_alarms, fmt::join(settings.klux, " / "), detected_sentence(settings, study));
   report += "![Detection over false alarms](hostile_scenes.svg)\n";
   for (const double klux : settings.klux) {

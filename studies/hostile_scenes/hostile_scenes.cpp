@@ -43,7 +43,7 @@ bool tellable(const ReadoutParameters& readout) {
   return is_pool_readout(readout.readout) || readout.readout == Readout::kCoarseHistogram;
 }
 
-/// Those that can be told of `sensor`, told.
+/// The estimators that have settings for the surroundings of `sensor`, with these settings.
 Estimators told_of(const HostileSettings& settings, const SensorModel& sensor,
                    const std::vector<RangeConverter>& tables) {
   Estimators told{.readouts = {}, .names = told_estimators(settings), .tables = {}};
@@ -131,7 +131,7 @@ void validate(const HostileSettings& settings) {
   }
   if (std::ranges::find(settings.conditions, kClear) == settings.conditions.end()) {
     throw InputError(
-        "hostile scenes: what a condition costs is told beside the condition \"clear\", which is missing");
+        "hostile scenes: the cost of a condition is stated beside the condition \"clear\", which is missing");
   }
   if (settings.seeds < 2) {
     throw InputError(

@@ -153,10 +153,10 @@ TEST_F(HostileReport, NamesWhatRemainsOfThoseThatAreTold) {
               ElementsAre("clear (14 klux)", "late-laser (14 klux)"));
   study_.told[{"late-laser", 14.0}]["coarsehistogram"] = seeds(0, 60);
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true), ElementsAre("clear (14 klux)"))
-      << "the coarse histogram is told, too";
+      << "the coarse histogram has its settings, too";
   EXPECT_THAT(hostile_report(settings_, study_, ""),
-              HasSubstr("poolPointer that is told of the sensor has more than twice the errors of a coarse "
-                        "histogram that is, too, under: clear (14 klux). Above 3 % it has, in % at 14 klux: "
+              HasSubstr("With these settings for both, poolPointer has more than twice the coarse "
+                        "histogram's errors under: clear (14 klux). Its pixels above 3 %, in % at 14 klux: "
                         "fog 2, late-laser 7.\n"));
 }
 

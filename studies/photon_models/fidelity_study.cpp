@@ -198,13 +198,10 @@ std::string readout_section(const FidelityStudy& study, const FidelitySettings& 
   }
   const std::size_t readouts = settings.readouts.size();
   return fmt::format(
-      "{}\nThe limits that `--fidelity auto` uses hold for {} of {} read-outs. The sampler is cheaper than "
-      "the "
-      "exact streams for {} of {}, and the order of both is the one that auto reckons with for {}. To draw "
-      "the streams of a frame took {:.0f} ms with the exact model and "
-      "{:.0f} ms with the fast one: for streams the {} model is the cheaper one, so that auto's exact "
-      "streams "
-      "cost {} than the fast ones would.\n",
+      "{}\nThe limits of `--fidelity auto` hold for {} of {} read-outs. The fast sampler costs less than the "
+      "exact streams for {} of {} read-outs, and the order that `auto` assumes is right for {}. The streams "
+      "of a frame took {:.0f} ms with the exact model and {:.0f} ms with the fast one. For streams the {} "
+      "model is therefore the cheaper one, and the exact streams of `auto` cost {} than the fast ones.\n",
       table.markdown(), holding, readouts, cheaper, readouts, as_reckoned, study.streams.exact_ms,
       study.streams.fast_ms, study.streams.exact_ms <= study.streams.fast_ms ? "exact" : "fast",
       study.streams.exact_ms <= study.streams.fast_ms

@@ -88,27 +88,20 @@ void run_claims_command(const ClaimsOptions& options) {
   const PaperClaims found = judge_paper_claims(options.settings);
   std::string report = fmt::format(
       "# What the rivals' papers claim\n\n"
-      "Each rival's model ([the list](rivals.md), `studies/rivals/models`) is held against what its paper "
-      "claims, on "
-      "photons as "
-      "those papers have them: independent detections of a Gaussian pulse and of flat background, no "
-      "pile-up, "
-      "places anywhere in the range, {} pixels, seed {}. The claims are those of the abstracts, in the "
-      "project's words; "
-      "the papers' own scenes and figures are not repeated, for their texts and data are not part of this "
-      "tree. What "
-      "counts as \"negligible\", \"similar\" or \"modest\" is said beside each.\n\n"
-      "* The yardstick is the full histogram with a matched filter, met by a second way: the Cramer-Rao "
-      "bound of "
-      "the same photons in closed form.\n"
-      "* \"Highest bin\" reads a histogram without knowledge of the pulse, as the equi-depth papers do. "
-      "Beside it "
-      "stands what a matched filter makes of the same counters, for that is what the project's 32-bin "
-      "histogram "
-      "has.\n"
-      "* Holds: under every kind of photons tested; in part: under some. Errors are root mean squares, in "
-      "codes, with "
-      "95 % intervals; lost: pixels more than three standard deviations of the pulse off.\n\n{}\n",
+      "This page compares each rival's model ([the list](rivals.md), `studies/rivals/models`) with the "
+      "claims of its paper. The photons are as in these papers: independent detections of a Gaussian pulse "
+      "and of a flat background, without pile-up, at distances spread over the whole range; {} pixels, seed "
+      "{}. The claims are those of the abstracts, in the project's words. The papers' own scenes and figures "
+      "are not repeated, because their texts and data are not part of this project. Each row states the "
+      "limit that stands for \"negligible\", \"similar\" or \"modest\".\n\n"
+      "* The reference is the full histogram with a matched filter. A second reference is the Cramer-Rao "
+      "bound for the same photons, in closed form.\n"
+      "* \"Highest bin\" takes the position of a histogram's largest bin, without knowledge of the pulse, "
+      "as the equi-depth papers do. The row beside it shows the result of a matched filter on the same "
+      "counters, because the project's 32-bin histogram uses a matched filter.\n"
+      "* Holds: the claim is true under every tested kind of photons; in part: under some. Errors are root "
+      "mean squares in codes with 95 % intervals. Lost: pixels whose error is larger than three standard "
+      "deviations of the pulse.\n\n{}\n",
       options.settings.pixels, options.settings.seed, claims_table(found).markdown());
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
@@ -135,7 +128,7 @@ void add_claims_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<ClaimsOptions>();
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
-      "claims", "What the rivals' papers claim, tested on photons as those papers have them");
+      "claims", "Tests the claims of the rivals' papers on the kind of photons that these papers use");
   command->add_option("--pixels", options->settings.pixels, "pixels of each kind of photons")
       ->check(CLI::Range(100, 1'000'000))
       ->capture_default_str();

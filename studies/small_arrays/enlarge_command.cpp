@@ -155,9 +155,9 @@ void run_enlarge_command(EnlargeOptions options) {
       "reflectivity is the photograph's luminance, at least {:g}. Pixels without a disparity are filled "
       "with the farther neighbour of their row and not judged.\n"
       "* Seeds {} to {} (photons, intensity image). +- is half of the 95 % interval from the spread of the "
-      "seeds; the maps' choice is not in it. Rmse is of the relative error. Edges: pixels with a neighbour "
-      "that differs by more than 10 %. The best small array is chosen by the figure it is compared by, "
-      "which favours it.\n\n",
+      "seeds; the choice of maps is not in it. Rmse: root mean square of the relative error. Edges: pixels "
+      "with a neighbour whose distance differs by more than 10 %. Each comparison takes the small array that "
+      "is best in the compared figure, which favours small arrays.\n\n",
       answer, sensor.columns, sensor.rows, options.sensor, options.seed, kNoError, fmt::join(names, ", "),
       options.nearest_m, kDarkestPhotographed, options.seed,
       options.seed + static_cast<std::uint64_t>(options.seeds) - 1);
