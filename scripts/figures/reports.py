@@ -116,7 +116,11 @@ def load(root: Path) -> dict[str, Report]:
 
 def input_files(report: Report, tree: SourceTree) -> set[str]:
     found: set[str] = set()
+    left_out: set[str] = set()
     for pattern in report.inputs:
+        if pattern.startswith("!"):
+            left_out.update(tree.matching(pattern[1:]))
+            continue
         kind, _, root = pattern.partition(":")
         if kind == "cpp":
             found |= closure.cpp(tree, root)
@@ -124,7 +128,7 @@ def input_files(report: Report, tree: SourceTree) -> set[str]:
             found |= closure.python(tree, root)
         else:
             found.update(tree.matching(pattern))
-    return found
+    return found - left_out
 
 
 def folder(name: str) -> str:

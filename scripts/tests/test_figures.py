@@ -32,7 +32,7 @@ inputs = ["@rtl", "python:synth/flow.py"]
 command = "make pareto"
 minutes = 0.1
 pages = ["pareto.md"]
-inputs = ["reports/area.csv", "cpp:app/commands/main.cpp"]
+inputs = ["reports/area.csv", "cpp:app/commands/main.cpp", "!models/dtof/unused/*"]
 """
 FILES = {
     "reports/reports.toml": LIST,
@@ -45,7 +45,8 @@ FILES = {
     "synth/parts/__init__.py": "",
     "synth/parts/adder.py": "ADDED = 2\n",
     "synth/unrelated.py": "VALUE = 3\n",
-    "app/commands/main.cpp": '#include "dtof/core/a.hpp"\n',
+    "app/commands/main.cpp": '#include "dtof/core/a.hpp"\n#include "dtof/unused/d.hpp"\n',
+    "models/dtof/unused/d.hpp": "int d();\n",
     "models/dtof/core/a.hpp": "int a();\n",
     "models/dtof/core/a.cpp": '#include "dtof/core/a.hpp"\n#include "dtof/core/b.hpp"\nint a() { return b(); }\n',
     "models/dtof/core/b.hpp": "int b();\n",
@@ -141,6 +142,7 @@ class Staleness(Project):
         self.measure()
         self.write("synth/unrelated.py", "VALUE = 4\n")
         self.write("models/dtof/core/c.hpp", "int c(int);\n")
+        self.write("models/dtof/unused/d.hpp", "int d(int);\n")
         self.write("README.md", "text\n")
         self.assertEqual(self.stale(), {})
 
@@ -253,8 +255,15 @@ class List(Project):
         self.assertEqual(measured - kept, set())
         for report in known.values():
             for pattern in report.inputs:
-                kind, _, root = pattern.partition(":")
+                kind, _, root = pattern.removeprefix("!").partition(":")
                 self.assertTrue(root in tree.files if root else tree.matching(kind), f"{report.name}: {pattern}")
+
+    def test_reports_without_rtl_among_their_inputs_run_none(self) -> None:
+        scripts = {name: text for name in SourceTree(ROOT).matching("scripts/*") if name.endswith((".mk", ".sh"))
+                   for text in [(ROOT / name).read_text(encoding="utf-8")]}
+        running = ["scripts/check_adding_a_readout.sh", "scripts/simulate.sh", "scripts/wave.mk"]
+        self.assertEqual([name for name, text in scripts.items() if "--engine" in text], running)
+        self.assertEqual([name for name, text in scripts.items() if "--engine subsystem" in text], running[-1:])
 
 
 MEASURE = """\
