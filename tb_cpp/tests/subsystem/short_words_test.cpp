@@ -86,9 +86,14 @@ TEST_P(ShortWords, ClipTheConfidence) {
   const ReadoutParameters& parameters = configuration.parameters;
   FrameSettings settings = everything_counts();
   settings.weak_below = 0;
+  const bool counts = has_histogram(parameters.readout) && !is_pool_readout(parameters.readout) &&
+                      !is_pointer_readout(parameters.readout);
   bool clipped = false;
   bool at_the_limit = false;
   for (const std::uint32_t acquisitions : {510U, 511U, 512U, 700U, 1020U, 1100U, 2100U, 3000U, 4200U}) {
+    if (acquisitions > 512 && !counts) {
+      break;  // no confidence of these read-outs has ten bits
+    }
     SCOPED_TRACE(testing::Message() << acquisitions << " acquisitions");
     settings.acquisitions = acquisitions;
     std::vector<Line> lines = dark_lines(configuration, acquisitions);
@@ -104,8 +109,6 @@ TEST_P(ShortWords, ClipTheConfidence) {
     clipped = clipped || (whole.confidence > 511 && !whole.saturated);
     at_the_limit = at_the_limit || whole.confidence == 511 || whole.confidence == 512;
   }
-  const bool counts = has_histogram(parameters.readout) && !is_pool_readout(parameters.readout) &&
-                      !is_pointer_readout(parameters.readout);
   EXPECT_EQ(clipped, counts);
   EXPECT_TRUE(at_the_limit || parameters.readout != Readout::kHistogram) << "one pass takes all acquisitions";
 }
