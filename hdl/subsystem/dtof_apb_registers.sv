@@ -465,8 +465,8 @@ module dtof_apb_registers #(
       enable_o <= enable_q;
       shot_bits_o <= shot_bits_q;
       shot_unit_o <= shot_unit_q;
-      settle_o <= settle_q;
       short_words_o <= short_words_q;
+      settle_o <= settle_q;
     end
   end
 

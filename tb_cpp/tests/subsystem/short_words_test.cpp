@@ -216,6 +216,41 @@ TEST_P(ShortWords, EndAsAbortedInAnyClock) {
   EXPECT_GT(whole, 0U) << "the last clocks are behind the frame";
 }
 
+// The frame's last words wait for the sink, and the next frame has begun, which is of the other kind.
+TEST_P(ShortWords, EndAsAbortedInTheirOwnKind) {
+  CounterRandom random = this->random(64);
+  FrameSettings settings = everything_counts(1);
+  for (const bool short_words : {false, true}) {
+    SCOPED_TRACE(testing::Message() << (short_words ? "short words" : "words of 64 bits"));
+    settings.short_words = short_words;
+    const std::vector<Line> lines = make_lines(bench_.configuration(), 4, random);
+    write_settings(bench_, settings);
+    push_lines(bench_, lines);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
+    const std::size_t begun = bench_.frames().size();
+    settings.short_words = !short_words;
+    write_settings(bench_, settings);
+    bench_.set(DTOF_COMMIT, DTOF_COMMIT_SETTINGS_MASK);
+    const std::size_t words = stream_order(bench_).size();
+    const std::size_t beats = short_words ? (words + 1) / 2 : words;
+    while (bench_.sink().current().size() + 2 < beats) {
+      bench_.clock();
+    }
+    bench_.sink().blocked = true;
+    bench_.clocks(300);
+    EXPECT_TRUE(bench_.frames().size() > begun || (short_words && words % 2 == 0))
+        << "the next frame has begun";
+    const std::size_t aborted = bench_.sink().aborted();
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_ABORT_MASK | DTOF_CONTROL_FLUSH_MASK);
+    bench_.source().reset();
+    bench_.clocks(kClocksOfAnAbort);
+    bench_.sink().blocked = false;
+    bench_.clocks(kClocksOfAnAbort);
+    EXPECT_TRUE(bench_.sink().idle());
+    EXPECT_EQ(bench_.sink().aborted(), aborted + 1);
+  }
+}
+
 TEST_P(ShortWords, DoNotChangeARawFrame) {
   if (!bench_.configuration().raw_histogram) {
     GTEST_SKIP() << "the subsystem sends none";
