@@ -223,14 +223,14 @@ TEST_P(ShortWords, EndAsAbortedInTheirOwnKind) {
   for (const bool short_words : {false, true}) {
     SCOPED_TRACE(testing::Message() << (short_words ? "short words" : "words of 64 bits"));
     settings.short_words = short_words;
-    const std::vector<Line> lines = make_lines(bench_.configuration(), 4, random);
     write_settings(bench_, settings);
-    push_lines(bench_, lines);
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
+    bench_.clocks(5);
     const std::size_t begun = bench_.frames().size();
     settings.short_words = !short_words;
     write_settings(bench_, settings);
     bench_.set(DTOF_COMMIT, DTOF_COMMIT_SETTINGS_MASK);
+    push_lines(bench_, make_lines(bench_.configuration(), 1, random));
     const std::size_t words = stream_order(bench_).size();
     const std::size_t beats = short_words ? (words + 1) / 2 : words;
     while (bench_.sink().current().size() + 2 < beats) {
