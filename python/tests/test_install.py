@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`pip install .` from the source tree without network, and what CMake says where pybind11 is not."""
+"""`pip install .` from the source tree without network, and what CMake says where pybind11 is not.
+
+pip packs the module that these tests import, and what it would compile is listed. DTOF_TEST_LONG=1, as .ci/long has it: pip compiles the module.
+"""
 
 import importlib.util
 import os
@@ -15,6 +18,7 @@ import dtof
 
 from programs import ROOT
 
+LONG = "DTOF_TEST_LONG" in os.environ
 NEEDED = ("pip", "setuptools", "wheel")
 PROGRAM = """
 import dtof
@@ -41,7 +45,8 @@ class InstallTest(unittest.TestCase):
             subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", folder], check=True)
             python = Path(folder) / "bin" / "python"
             done = subprocess.run([sys.executable, "-m", "pip", "--python", str(python), "install", "--no-build-isolation", "--no-index", "."],
-                                  cwd=ROOT, capture_output=True, text=True, check=False)
+                                  cwd=ROOT, capture_output=True, text=True, check=False,
+                                  env=os.environ | ({} if LONG else {"DTOF_MODULE": dtof._core.__file__}))
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
             said = subprocess.run([python, "-c", PROGRAM], cwd=folder, capture_output=True, text=True, check=True, env=environment).stdout
@@ -71,13 +76,16 @@ class InstallTest(unittest.TestCase):
 
     def test_without_verilator_the_module_is_configured_and_a_line_says_so(self) -> None:
         line = "-- The Python module will run no RTL: verilator is not here (Debian: verilator)\n"
-        options = ("-DDTOF_PROGRAMS=OFF", "-DDTOF_PYTHON=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_pybind11=OFF")
+        options = ("-DDTOF_PROGRAMS=OFF", "-DDTOF_PYTHON=ON", "-DCMAKE_DISABLE_FIND_PACKAGE_pybind11=OFF", "-G", "Ninja")
         for verilator in ("-DVERILATOR=OFF", *(["-UVERILATOR"] if shutil.which("verilator") else [])):
             with self.subTest(verilator), tempfile.TemporaryDirectory() as folder:
                 done = configure(folder, *options, verilator)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(line in done.stdout, verilator == "-DVERILATOR=OFF", done.stdout)
                 self.assertEqual((Path(folder) / "tb_cpp").exists(), verilator != "-DVERILATOR=OFF")
+                done = subprocess.run(["ninja", "-C", folder, "-t", "commands", "dtof_core_module"], capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertEqual("libdtof_run.a" in done.stdout, verilator != "-DVERILATOR=OFF", done.stdout)
 
     def test_the_module_alone_cannot_do_without(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

@@ -15,6 +15,10 @@ inline std::uint64_t test_seed() {
   return text == nullptr ? kDefaultTestSeed : std::stoull(text);
 }
 
+/// Whether tests repeat on large arrays what smaller ones of the same kind show: DTOF_TEST_LONG=1, as
+/// .ci/long has it.
+inline bool long_tests() { return std::getenv("DTOF_TEST_LONG") != nullptr; }
+
 /// For SCOPED_TRACE: the setting that repeats the run.
 inline std::string test_seed_message() { return "DTOF_TEST_SEED=" + std::to_string(test_seed()); }
 
