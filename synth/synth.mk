@@ -31,8 +31,11 @@ synth-check:
 synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*
 
-synth-flat synth-corners synth-namings synth-subsystem: synth-%:
+synth-flat synth-corners synth-namings: synth-%:
 	@synth/synth.py $* $(CONFIGURATIONS)
+
+synth-subsystem:
+	@synth/around_array.py $(CONFIGURATIONS)
 
 # The other checkout is by default that of the other Debian (scripts/try_debian.sh trixie --run "make synth").
 OTHER ?= build/debian/trixie/srv/dtof-readout

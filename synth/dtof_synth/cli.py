@@ -13,7 +13,7 @@ from pathlib import Path
 
 from . import area_parts, batch, budgets, check, configuration, corner_ratios, estimate, estimate_points, gates, goals, growth, \
     line_buffer, namings, part_costs, report, report_inputs, scene_power, signalled_clear, simulation, sram_kit, sram_report, \
-    subsystem, subsystem_report, yosys_versions
+    yosys_versions
 from . import technology as technologies
 from .configuration import Configuration
 from .errors import FlowError
@@ -185,26 +185,6 @@ def _namings(arguments: argparse.Namespace, named: dict[str, Configuration]) -> 
         report_inputs.record("namings")
         _say("reports/namings.md, reports/namings.csv written")
     return 0 if all(one.closes for one in found.values()) else 1
-
-
-def _subsystem(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """dtof_subsystem around arrays, the arrays' times from the netlists of `run`."""
-    started = time.monotonic()
-    chosen = list(_select(named, arguments.configuration or list(subsystem.CONFIGURATIONS)).values())
-    digest = report_inputs.begin("subsystem")
-    build = ROOT / "build" / "synth"
-    technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
-    results = batch.run_all([batch.Job(item) for item in chosen], technology, build / "runs", arguments.jobs, _say)
-    found = subsystem.measure_all([results[item.name] for item in chosen], technology, build, arguments.jobs, _say)
-    for goal in subsystem_report.goals(found):
-        _say(f"{'met' if goal.met else 'missed'}: {goal.text}: {goal.value}")
-    if not arguments.configuration:
-        (ROOT / "reports" / "subsystem.md").write_text(subsystem_report.report(found, digest), encoding="utf-8")
-        subsystem_report.write_csv(ROOT / "reports" / "subsystem.csv", found)
-        report_inputs.record("subsystem")
-        _say("reports/subsystem.md, reports/subsystem.csv written")
-    _say(f"{len(found)} subsystems in {time.monotonic() - started:.0f} s")
-    return 0
 
 
 def _versions(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
@@ -396,10 +376,6 @@ def _parser() -> argparse.ArgumentParser:
     several = commands.add_parser("namings", help="area and slack over several namings of the same logic")
     several.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all but variants, with a report")
     several.set_defaults(action=_namings)
-    around = commands.add_parser("subsystem", help="area and timing of dtof_subsystem around arrays")
-    around.add_argument("configuration", nargs="*", help="names from configurations.toml; none: "
-                        f"{', '.join(subsystem.CONFIGURATIONS)}, with a report")
-    around.set_defaults(action=_subsystem)
     versions = commands.add_parser("versions", help="the results of make synth beside those of another checkout with another Yosys")
     versions.add_argument("checkout", type=Path, help="the other checkout, in which make synth ran")
     versions.set_defaults(action=_versions)
