@@ -12,6 +12,7 @@ from .goals import Goal
 from .subsystem import CORNERS, MODES, TOP, Subsystem
 
 LINE_BUFFER = "dtof_line_buffer"
+HOPELESS_NS = 0.4  # of synth/sta/resize.tcl
 OWN = "own cells"  # of dtof_subsystem, outside its modules
 
 
@@ -81,6 +82,17 @@ def _late_rows(found: Sequence[Subsystem]) -> list[list[str]]:
     return [[titles.get(name, f"`{name}`"), *(f"{one.late[name]:+.3f}" if name in one.late else "-" for one in found)] for name in names]
 
 
+def _pessimism(found: Sequence[Subsystem]) -> str:
+    """What makes slacks smaller than they could be."""
+    text = "Each module is mapped alone, so no logic is optimised across borders of modules."
+    hopeless = [one for one in found if min(one.late.values()) < -HOPELESS_NS]
+    if hopeless:
+        text += (f" Resizing gates is not tried where a path misses by more than {HOPELESS_NS:g} ns; so around "
+                 f"{', '.join(one.configuration.title for one in hopeless)} no gate is resized. A smaller miss than that may be one of the "
+                 "flow, not of the RTL.")
+    return text
+
+
 def _end_rows(found: Sequence[Subsystem]) -> list[list[str]]:
     return [[one.configuration.title, f"{one.ends.all}", f"{one.ends.timed}", f"{one.ends.constant}", f"{one.ends.side_band}",
              f"{one.ends.to_array}", f"{one.ends.from_array}", f"{one.ends.resets}"] for one in found]
@@ -107,6 +119,7 @@ def report(found: Sequence[Subsystem], digest: str) -> str:
                 _slack_rows(found), 2),
         "Least setup slack in the slow corner with margins, by the module in which paths end:", "",
         *_table(["paths end in", *titles], _late_rows(found)),
+        _pessimism(found), "",
         "The clock is ideal, and `dtof_clock_gate` is a cell of the library: the array's clock is `clk_i` behind it, with the same arrival. "
         "Wires have the library's wire load. There is no floorplan of the subsystem, so the wires from the line buffer to 200 columns are "
         "timed shorter than they are.", "",

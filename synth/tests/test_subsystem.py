@@ -185,6 +185,11 @@ class Report(unittest.TestCase):
                     "| poolPointer: closes 330 MHz in all corners with margins | worst slack -0.250 ns | **no** |"):
             self.assertIn(row, text)
 
+    def test_the_page_says_where_no_gate_was_resized(self) -> None:
+        found = [around("ezpointer", setup=-0.4), around("poolpointer", setup=-0.5)]
+        self.assertIn("so around poolPointer no gate is resized", subsystem_report.report(found, "0" * 64))
+        self.assertNotIn("no gate is resized", subsystem_report.report(found[:1], "0" * 64))
+
     def test_the_csv_has_a_line_for_each_array(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             subsystem_report.write_csv(Path(folder) / "subsystem.csv", [around("ezpointer")])
