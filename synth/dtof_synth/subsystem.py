@@ -369,7 +369,7 @@ class _Timed:
         # The margins of a file without any: timing.tcl reports recovery and removal in that step alone.
         none = self.folder / "no_margins.sdc"
         none.write_text("", encoding="utf-8")
-        return _slacks(self.time(corner, mode, "nominal", "margins", margins=none).margin())
+        return _slacks(self.time(corner, mode, "margins", margins=none).margin())
 
     def ends(self) -> tuple[Ends, dict[str, float]]:
         """Judges all ends in the slow corner, and returns the least setup slack with margins of the ends of each module, the array and the
