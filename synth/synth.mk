@@ -11,13 +11,14 @@
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
 # make synth-flat      the slack with every column real beside that with stand-ins; CONFIGURATIONS= as above
 # make synth-corners   the slack if gates and SRAMs are slowed by one ratio; CONFIGURATIONS= as above
+# make synth-subsystem  dtof_subsystem around the arrays: reports/subsystem.md; CONFIGURATIONS= as above (table only)
 # make synth-test      the flow's own tests, and the porting example simulated
 # make sim-icarus      RTL of every configuration, small, in Icarus Verilog against the model
 # make sim-netlist     netlist of every configuration, small, beside its RTL; LIBERTY= and LIBERTY_SLOW= as above
 #                      CONFIGURATIONS="sifh fifh" SEED=2               some configurations, other random frames
 # make sim-netlist-full  netlists of 200 columns (ezPointer, hisPointer, poolPointer) in Verilator against the model
 # make power           power from the activity of netlists on a scene: reports/power.md (minutes)
-.PHONY: synth power synth-growth synth-estimate synth-flat synth-corners synth-namings synth-versions synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
+.PHONY: synth power synth-growth synth-estimate synth-subsystem synth-flat synth-corners synth-namings synth-versions synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
@@ -32,6 +33,9 @@ synth-budgets synth-sizes: synth-%:
 
 synth-flat synth-corners synth-namings: synth-%:
 	@synth/synth.py $* $(CONFIGURATIONS)
+
+synth-subsystem:
+	@synth/around_array.py $(CONFIGURATIONS)
 
 # The other checkout is by default that of the other Debian (scripts/try_debian.sh trixie --run "make synth").
 OTHER ?= build/debian/trixie/srv/dtof-readout

@@ -99,6 +99,18 @@ def growth(tables: Tables) -> Figures:
             Figure(row["total_mm2"], "mm2") for row in tables.rows("growth.csv")}
 
 
+def subsystem(tables: Tables) -> Figures:
+    """Area of dtof_subsystem around each array, and its least setup slack."""
+    found: Figures = {}
+    for row in tables.rows("subsystem.csv"):
+        name = f"subsystem.{row['configuration']}"
+        found[f"{name}.around_mm2"] = Figure(row["subsystem_mm2"], "mm2")
+        found[f"{name}.share_percent"] = Figure(percent(row["share"]), "%")
+        found[f"{name}.line_buffer_mm2"] = Figure(row["line_buffer_mm2"], "mm2")
+        found[f"{name}.slow_setup_with_margins_ns"] = Figure(row["slow_margins_setup_ns"], "ns")
+    return found
+
+
 def power(tables: Tables) -> Figures:
     """Power while acquisitions stream in."""
     found: Figures = {}
@@ -199,7 +211,7 @@ def pool(tables: Tables) -> Figures:
 
 
 MAKERS: dict[str, Callable[[Tables], Figures]] = {
-    "synth": synth, "growth": growth, "power": power, "frame": frame, "frames": frames, "pareto": pareto, "scenes": scenes,
+    "synth": synth, "growth": growth, "subsystem": subsystem, "power": power, "frame": frame, "frames": frames, "pareto": pareto, "scenes": scenes,
     "reproduction": reproduction, "rivals": rivals, "pool": pool}
 
 

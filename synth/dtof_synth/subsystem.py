@@ -1,0 +1,496 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Area and timing of dtof_subsystem around an array. The array is a black box while the subsystem is mapped, and a cell with the array's
+measured times (array_stand_in.py) while it is timed.
+
+Modules that dtof_subsystem instantiates stay modules, so that each has an area of its own; what is inside them is flattened. Their names come
+from the elaborated netlist. Registers with a common enable get clock gates, as in the columns, except those of dtof_subsystem itself.
+All wires have the library's wire load: there is no floorplan of the subsystem.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections import Counter
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import astuple, dataclass
+from pathlib import Path
+
+from . import array_stand_in, clock_gating, endpoints, floorplan, netlist, run, spef, sram_kit, timing, tools, verilog
+from .array_stand_in import MODES, Ports
+from .canonical import canonical
+from .configuration import Configuration, engine_memories, memories
+from .errors import FlowError, given
+from .library import Library
+from .netlist import Counts
+from .run import Effort, Result, Technology
+from .standard_cells import CINV_FF, FO4_NS
+from .timing import Margin
+
+TOP = "dtof_subsystem"
+CONFIGURATIONS = ("ezpointer", "hispointer", "coarsehistogram", "poolpointer", "poolpointer_lean")
+ARRAYS = ("dtof_array", "dtof_pool_pointer_array")
+ARRAY = "u_array"  # name of the array's instance in the timed netlist
+CLOCK_GATE = "dtof_clock_gate"
+CORNERS = ("slow", "typical", "fast")
+EFFORTS = (run.LAYOUT_EFFORT, run.EFFORTS[-1])  # the first that closes with margins is taken, else the one that misses by least
+HOLD_ROUNDS = 4
+RESIZE_ROUNDS = 3
+_INSTANCE = re.compile(r"^  cell (\S+) (\S+)$", re.MULTILINE)
+_END = re.compile(r"^(\S+) \(\S+\) +\S+ +\S+ +(-?[\d.]+) \((?:MET|VIOLATED)\)$", re.MULTILINE)
+_ASKED = re.compile(r"^DTOF_ASKED (\S+)\n\S+ ([01X])$", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A module of the subsystem: instances, and the cells of all of them together."""
+
+    name: str
+    instances: int
+    counts: Counts
+
+
+@dataclass(frozen=True)
+class Slacks:
+    """Slacks of a corner in ns at the target clock; `reset`: the lesser of recovery and removal."""
+
+    setup: float
+    hold: float
+    reset: float
+    start: str  # of the slowest path
+    end: str
+
+
+@dataclass(frozen=True)
+class Ends:
+    """Ends of paths. `all`: pins with a setup time, the array's included, and output ports; not timed are those that hang on a constant, and
+    the side band. `to_array` and `from_array`: pins of the array, counted as timed. `resets`: pins with a recovery time, all timed."""
+
+    all: int
+    timed: int
+    constant: int
+    side_band: int
+    to_array: int
+    from_array: int
+    resets: int
+
+
+@dataclass(frozen=True)
+class Subsystem:
+    """Figures of the subsystem around one array."""
+
+    configuration: Configuration
+    parts: list[Part]  # the largest first
+    array_mm2: float
+    slacks: dict[tuple[str, str], Slacks]  # by corner and one of MODES
+    ends: Ends
+    late: dict[str, float]  # least setup slack with margins of the ends in each module, slow corner; with the array's
+    target_mhz: float
+
+    @property
+    def counts(self) -> Counts:
+        return Counts(*(sum(values) for values in zip(*(astuple(part.counts) for part in self.parts))))
+
+    @property
+    def mm2(self) -> float:
+        return self.counts.area / 1e6
+
+    @property
+    def share(self) -> float:
+        """Area of the subsystem around the array, over that of the array."""
+        return self.mm2 / self.array_mm2
+
+    def part(self, name: str) -> Part:
+        found = next((part for part in self.parts if part.name == name), None)
+        return given(found, f"{self.configuration.name}: {TOP} has no module {name}")
+
+    def worst(self, mode: str) -> float:
+        """The least slack of all corners and kinds, ns."""
+        return min(min(one.setup, one.hold, one.reset) for (_, of), one in self.slacks.items() if of == mode)
+
+
+def parameters(configuration: Configuration, root: Path) -> dict[str, int]:
+    """Parameters of dtof_subsystem for the array of a configuration."""
+    if not configuration.is_pool:
+        return configuration.rtl_parameters()
+    text = (root / "hdl" / "common" / "dtof_readouts.svh").read_text(encoding="utf-8")
+    number = re.search(r"READOUT_POOLPOINTER = (\d+);", text)
+    return {"READOUT": int(given(number, "dtof_readouts.svh: no READOUT_POOLPOINTER")[1]), **configuration.rtl_parameters()}
+
+
+def clock_gate(library: Library) -> str:
+    """The technology folder's clock gate with the library's cell, which has no pin for scan mode."""
+    gate = given(library.clock_gate, "the library has no clock gate")
+    return "\n".join([
+        "// SPDX-License-Identifier: Apache-2.0", "// Generated.", f"module {CLOCK_GATE} #(", "    parameter int NEEDED = 0", ") (",
+        "    input  logic clk_i,", "    input  logic enable_i,", "    input  logic scan_mode_i,", "    output logic clk_o", ");",
+        f"  {gate.name} u_gate (.{gate.clock_pin}(clk_i), .{gate.enable_pin}(enable_i || scan_mode_i), .{gate.output_pin}(clk_o));",
+        "endmodule", ""])
+
+
+def children(elaborated: str) -> list[str]:
+    """Modules that the top of an elaborated netlist (RTLIL) instantiates, by their names in the RTL, without array and clock gate."""
+    start = re.search(r"^attribute \\top .*\n(?:attribute .*\n)*module .*\n", elaborated, re.MULTILINE)
+    body = elaborated[given(start, "the elaborated netlist has no top").end():].split("\nend\n", 1)[0]
+    found = {plain_module(kind) for kind, _ in _INSTANCE.findall(body) if re.match(r"\\|\$paramod", kind)}
+    return sorted(found - {CLOCK_GATE, *ARRAYS})
+
+
+def plain_module(name: str) -> str:
+    """Name in the RTL of a module that Yosys derived from it."""
+    return next((part for part in name.split("\\") if re.fullmatch(r"[a-z]\w*", part)), name)
+
+
+def generic(configuration: Configuration, technology: Technology, folder: Path) -> None:
+    """Turns the RTL into the technology-independent netlist generic.il with clock gates. Checks must pass."""
+    folder.mkdir(parents=True, exist_ok=True)
+    root = technology.root
+    black_boxes, *technology_files = sram_kit.write_rtl_views(
+        folder, [*memories(configuration).values(), *engine_memories(configuration).values()])
+    gate = folder / f"{CLOCK_GATE}.sv"
+    gate.write_text(clock_gate(technology.slow), encoding="utf-8")
+    elaborated = folder / "elaborated.il"
+    settings: dict[str, tools.Setting] = {
+        "scripts": root / "synth" / "yosys", "top": TOP, "rtl_files": list(run.rtl_files(root)), "rtl_include": root / "hdl" / "common",
+        "technology_files": [*technology_files, gate], "black_boxes": black_boxes, "liberty": technology.slow.path,
+        "parameters": dict(parameters(configuration, root)), "array_modules": [f"*{name}" for name in ARRAYS],
+        "elaborated_netlist": elaborated, "generic_netlist": folder / "generic.il"}
+    written = folder / "generic_settings.tcl"
+    tools.write_settings(written, settings)
+    tools.run_yosys(root / "synth" / "subsystem" / "elaborate.tcl", written, folder / "elaborate.log", configuration.name)
+    text = canonical(elaborated.read_text(encoding="utf-8"), root)
+    elaborated.write_text(text, encoding="utf-8")
+    tools.write_settings(written, {**settings, "kept_modules": [f"*{name}*" for name in children(text)]})
+    tools.run_yosys(root / "synth" / "yosys" / "generic.tcl", written, folder / "generic.log", configuration.name)
+    clock_gating.insert(folder / "generic.il", technology.slow)
+
+
+def map_to_cells(configuration: Configuration, technology: Technology, folder: Path, effort: Effort) -> dict:
+    """Maps generic.il to cells; returns the design with plain names of modules and cells."""
+    library = technology.slow
+    inverter_ff = next(iter(library.input_ff[library.inverter].values()))
+    constraints = folder / "abc.constr"
+    constraints.write_text(f"set_driving_cell {library.inverter}\nset_load {4 * inverter_ff:.3f} [all_outputs]\n", encoding="utf-8")
+    settings = folder / "map_settings.tcl"
+    tools.write_settings(settings, {
+        "scripts": technology.root / "synth" / "yosys", "generic_netlist": folder / "generic.il", "liberty": library.path,
+        "abc_constraints": constraints, "abc_period_ps": f"{1e6 / technology.target_mhz * effort.share:.0f}",
+        "column_script": effort.column, "shared_script": effort.shared, "naming": "0", "tie_low": list(library.tie.get("0", ())),
+        "tie_high": list(library.tie.get("1", ())), "netlist_json": folder / "mapped.json"})
+    tools.run_yosys(technology.root / "synth" / "yosys" / "map.tcl", settings, folder / "map.log", configuration.name)
+    design = json.loads((folder / "mapped.json").read_text(encoding="utf-8"))
+    plain_modules(design)
+    foreign = netlist.foreign_cells(design, library, set(ARRAYS))
+    if foreign:
+        raise FlowError(f"{configuration.name}: unmapped cells in the netlist: {', '.join(sorted(foreign))}")
+    return design
+
+
+def plain_modules(design: dict) -> None:
+    """Gives derived modules their names in the RTL, with a number where one module has several sets of parameters."""
+    called: dict[str, str] = {}
+    for name, module in netlist.modules(design).items():
+        if module["cells"] or plain_module(name) in ARRAYS:
+            plain = plain_module(name)
+            number = sum(re.fullmatch(rf"{plain}(__\d+)?", other) is not None for other in called.values())
+            called[name] = f"{plain}__{number + 1}" if number else plain
+    design["modules"] = {called.get(name, name): module for name, module in netlist.modules(design).items()}
+    for module in netlist.modules(design).values():
+        for cell in module["cells"].values():
+            cell["type"] = called.get(cell["type"], cell["type"])
+
+
+def array_cell(design: dict) -> str:
+    """Name of the array's instance. FlowError unless there is one."""
+    found = [name for name, cell in netlist.top(design)["cells"].items() if cell["type"] in ARRAYS]
+    if len(found) != 1:
+        raise FlowError(f"{TOP} has {len(found)} arrays")
+    return found[0]
+
+
+def connect_stand_in(design: dict, ports: Ports) -> list[tuple[str, bool]]:
+    """Replaces the array by its stand-in, whose pins are single bits. Constant outputs become constants, and inputs that the array does not
+    use are left open. Returns pins without times (the side band), and whether they are outputs. FlowError if the array in the subsystem has other
+    ports than the array that was measured."""
+    top = netlist.top(design)
+    array = top["cells"].pop(array_cell(design))
+    known = {port.name for port in ports.timed[MODES[0]]}
+    cell: dict = {"hide_name": 0, "type": array_stand_in.CELL, "parameters": {}, "attributes": {}, "port_directions": {}, "connections": {}}
+    constant: set[int] = set()
+    others = []
+    for port, bits in array["connections"].items():
+        for index, bit in enumerate(bits):
+            name = port if len(bits) == 1 else f"{port}[{index}]"
+            is_output = array["port_directions"][port] == "output"
+            if name in ports.unused:
+                continue
+            if name in ports.constant:
+                constant.add(bit)
+                continue
+            if name not in known and port != array_stand_in.CLOCK:
+                if not endpoints.SIDE_BAND.fullmatch(name):
+                    raise FlowError(f"the array was measured without its port {name}")
+                others.append((name, is_output))
+            cell["port_directions"][array_stand_in.plain(name)] = "output" if is_output else "input"
+            cell["connections"][array_stand_in.plain(name)] = [bit]
+    if missing := known - {name for name in known if array_stand_in.plain(name) in cell["connections"]}:
+        raise FlowError(f"the array in {TOP} lacks the port {min(missing)}")
+    for other in top["cells"].values():
+        other["connections"] = {pin: ["0" if bit in constant else bit for bit in bits] for pin, bits in other["connections"].items()}
+    top["cells"][ARRAY] = cell
+    return others
+
+
+def _trees(design: dict, library: Library, ports: Ports) -> None:
+    """Inserts the buffers that nets with much load need."""
+    loads = {port.pin: port.load_ff for port in ports.timed[MODES[0]]}
+    cell_load = floorplan.pin_load(library, 0.0)
+    inside: dict[str, dict[str, float]] = {}
+    for name, module in netlist.modules(design).items():
+        if module["cells"] and module is not netlist.top(design):
+            netlist.insert_fanout_trees(module, library, cell_load, netlist.clock_nets(module) | netlist.constant_nets(module, library))
+            inside[name] = {port: max(values, default=0.0)
+                            for port, values in netlist.port_loads(module, cell_load, library.wire_ff_per_sink).items()}
+
+    def load(kind: str, pin: str) -> float:
+        return loads.get(pin, 0.0) if kind == array_stand_in.CELL else inside[kind].get(pin, 0.0) if kind in inside else cell_load(kind, pin)
+
+    top = netlist.top(design)
+    clocks = netlist.clock_nets(top) | set(top["cells"][ARRAY]["connections"][array_stand_in.CLOCK])
+    netlist.insert_fanout_trees(top, library, load, clocks | netlist.constant_nets(top, library))
+
+
+def _reset_pins(library: Library) -> set[str]:
+    return {"RN", "SN"} & {pin for kind in library.sequential for pin in library.input_ff[kind]}
+
+
+def count_ends(design: dict, library: Library, ports: Ports) -> tuple[int, int]:
+    """(pins with a setup time and output ports, pins with a recovery time) of the netlist."""
+    resets = _reset_pins(library)
+
+    def of(module: dict) -> tuple[int, int]:
+        ends = asynchronous = 0
+        for cell in module["cells"].values():
+            inner = netlist.modules(design).get(cell["type"])
+            if inner and inner["cells"]:
+                more = of(inner)
+                ends, asynchronous = ends + more[0], asynchronous + more[1]
+            ends += len(library.checked.get(cell["type"], ()))
+            asynchronous += len(resets & cell["connections"].keys())
+        return ends, asynchronous
+
+    ends, asynchronous = of(netlist.top(design))
+    inputs = [port for port in ports.timed[MODES[0]] if not port.is_output]
+    outputs = sum(len(port["bits"]) for port in netlist.top(design)["ports"].values() if port["direction"] == "output")
+    return (ends + outputs + sum(port.name != array_stand_in.RESET for port in inputs),
+            asynchronous + sum(port.name == array_stand_in.RESET for port in inputs))
+
+
+def timed_ends(output: str, kind: str) -> tuple[dict[str, float], dict[str, float]]:
+    """Slacks of the ends that OpenSTA timed, from the output of synth/subsystem/ends.tcl: those of data, and those of the reset. `kind`: max or
+    min."""
+    listing = output.split(f"DTOF_ENDS_{kind}\n", 1)[1].split("DTOF_END\n", 1)[0]
+    data: dict[str, float] = {}
+    resets: dict[str, float] = {}
+    for group in re.split(r"^(?=max_delay|min_delay)", listing, flags=re.MULTILINE):
+        own = resets if "async_default" in group.split("\n", 1)[0] else data
+        own.update((end, float(slack)) for end, slack in _END.findall(group))
+    return data, resets
+
+
+def judge_ends(name: str, counted: tuple[int, int], unchecked: dict[str, list[str]], output: str, ports: Ports) -> Ends:
+    """Compares the ends in the netlist with those that OpenSTA timed. `counted`: from count_ends; `unchecked`: warnings of check_setup. FlowError
+    if an end is not timed and is neither constant nor part of the side band, for every other warning, and if pins of the array are not timed."""
+    constants = {end for end, value in _ASKED.findall(output) if value != "X"}
+    constant = side_band = 0
+    for warning, pins in unchecked.items():
+        unexplained = []
+        for pin in pins or [""]:
+            if warning.startswith("unconstrained endpoint") and endpoints.SIDE_BAND.fullmatch(pin):
+                side_band += 1
+            elif warning.startswith("unconstrained endpoint") and pin in constants:
+                constant += 1
+            else:
+                unexplained.append(pin)
+        if unexplained:
+            raise FlowError(f"{name}: OpenSTA warns of {len(unexplained)} {warning}: {', '.join(unexplained[:5])}"
+                            + (" and others" if len(unexplained) > 5 else ""))
+    to_array = sum(not port.is_output for port in ports.timed[MODES[0]])
+    found = Ends(counted[0], counted[0] - constant - side_band, constant, side_band, to_array,
+                 sum(port.is_output for port in ports.timed[MODES[0]]), counted[1])
+    for kind, what in (("max", "setup"), ("min", "hold")):
+        data, resets = timed_ends(output, kind)
+        at_array = sum(end.startswith(f"{ARRAY}/") for end in data) + (f"{ARRAY}" in resets or f"{ARRAY}/{array_stand_in.RESET}" in resets)
+        if at_array != to_array:
+            raise FlowError(f"{name}: OpenSTA times {at_array} of {to_array} pins of the array for {what}")
+        if len(data) != found.timed or len(resets) != found.resets:
+            raise FlowError(f"{name}: OpenSTA times {len(data)} of {found.timed} ends and {len(resets)} of {found.resets} resets for {what}")
+    return found
+
+
+@dataclass(frozen=True)
+class _Timed:
+    """The mapped subsystem with the array's stand-in, ready for OpenSTA."""
+
+    configuration: Configuration
+    technology: Technology
+    folder: Path
+    design: dict
+    ports: dict[str, Ports]  # by corner
+    others: list[tuple[str, bool]]
+
+    def write(self) -> None:
+        for corner, ports in self.ports.items():
+            for mode in MODES:
+                text = array_stand_in.liberty(ports.timed[mode], self.others, mode, self.technology.library(corner).voltage)
+                (self.folder / f"array_{corner}_{mode}.lib").write_text(text, encoding="utf-8")
+        (self.folder / "timing.v").write_text(verilog.write(self.design), encoding="utf-8")
+
+    def files(self, corner: str, mode: str) -> timing.Netlist:
+        library = self.technology.library(corner)
+        return timing.Netlist(f"{self.configuration.name}, {TOP}, {corner} corner", self.folder / "timing.v", Path(),
+                              [library.path, self.folder / f"array_{corner}_{mode}.lib"], library.wire_load, TOP)
+
+    @property
+    def constraints(self) -> Path:
+        return self.technology.root / "constraints" / "subsystem" / "dtof_subsystem.sdc"
+
+    def time(self, corner: str, mode: str, *steps: str, **settings: tools.Setting) -> timing.Report:
+        """Runs steps of synth/sta/timing.tcl, as for the arrays."""
+        return timing.measure(self.files(corner, mode), self.technology.root, self.technology.target_mhz,
+                              self.folder / f"sta_{corner}_{'_'.join(steps)}.log", steps,
+                              {"constraints": self.constraints, "wires": "", **settings})
+
+    def slacks(self, corner: str, mode: str) -> Slacks:
+        if mode == "margins":
+            return _slacks(self.time(corner, mode, "margins").margin())
+        # The margins of a file without any: timing.tcl reports recovery and removal in that step alone.
+        none = self.folder / "no_margins.sdc"
+        none.write_text("", encoding="utf-8")
+        return _slacks(self.time(corner, mode, "margins", margins=none).margin())
+
+    def ends(self) -> tuple[Ends, dict[str, float]]:
+        """Judges all ends in the slow corner, and returns the least setup slack with margins of the ends of each module, the array and the
+        ports."""
+        files = self.files("slow", "margins")
+        report = self.time("slow", "nominal", "check")
+        settings = self.folder / "ends.tcl"
+        tools.write_settings(settings, {
+            "liberty_files": files.liberty_files, "netlist": files.verilog, "top": TOP, "wire_load": files.wire_load,
+            "period": f"{1e3 / self.technology.target_mhz:.6f}", "constraints": self.constraints,
+            "margins": self.technology.root / "constraints" / "margins.sdc", "slew": f"{FO4_NS:.4f}", "load": f"{10 * CINV_FF:.4f}",
+            "asked": [pin for pins in report.unchecked.values() for pin in pins if not endpoints.SIDE_BAND.fullmatch(pin)]})
+        output = tools.run_sta(self.technology.root / "synth" / "subsystem" / "ends.tcl", settings, self.folder / "ends.log", files.name)
+        library, ports = self.technology.slow, self.ports["slow"]
+        ends = judge_ends(files.name, count_ends(self.design, library, ports), report.unchecked, output, ports)
+        kinds = {name: re.sub(r"__\d+$", "", cell["type"]) for name, cell in netlist.top(self.design)["cells"].items()
+                 if cell["type"] not in library.area}
+        worst: dict[str, float] = {}
+        for group in timed_ends(output, "max"):
+            for end, slack in group.items():
+                where = kinds.get(end.split("/")[0], TOP)
+                worst[where] = min(slack, worst.get(where, math.inf))
+        return ends, worst
+
+    def resize(self, guard_ns: float) -> timing.Report:
+        """Gates of late paths get more drive, in the slow corner with margins."""
+        instances: dict[str, list[str]] = {}
+        for name, cell in netlist.top(self.design)["cells"].items():
+            if netlist.modules(self.design).get(cell["type"], {}).get("cells"):
+                instances.setdefault(cell["type"], []).append(name)
+        library = self.technology.slow
+        report = self.time("slow", "margins", "resize", drives=library.drives, cell_areas=library.area, guard=f"{guard_ns}",
+                           blocks=[item for kind, names in instances.items() for item in (kind, names, len(names))], stand_ins=[],
+                           shrinkable=[], dispensable=[], buffer_pins=[library.buffers[0].input_pin, library.buffers[0].output_pin])
+        netlist.resize(self.design, library, report.resized)
+        self.write()
+        return report
+
+    def close_setup(self) -> Slacks:
+        slacks, guard = self.slacks("slow", "margins"), run.RESIZE_GUARD_NS
+        for _ in range(RESIZE_ROUNDS):
+            if slacks.setup >= 0 or not self.resize(guard).resized:
+                break
+            slacks = self.slacks("slow", "margins")
+            guard += max(-slacks.setup, 0.0)
+        return slacks
+
+    def fix_hold(self) -> None:
+        """Buffers in front of ends where data are too early in the fast corner with margins."""
+        for _ in range(HOLD_ROUNDS):
+            early = self.time("fast", "margins", "margins", "early").early
+            if not early:
+                return
+            buffers: dict[tuple[str, str, str], int] = {}
+            for path in early:
+                pin = netlist.local_pin(self.design, path.pins[-1])
+                buffers[pin] = max(buffers.get(pin, 1), math.ceil(-path.slack / run.HOLD_BUFFER_NS))
+            netlist.delay_pins(self.design, buffers, self.technology.slow)
+            self.write()
+
+    def parts(self) -> list[Part]:
+        """Modules with their areas, the largest first. Sets of parameters of one module are one part."""
+        library, top = self.technology.slow, netlist.top(self.design)
+        numbers = Counter(cell["type"] for cell in top["cells"].values())
+        found: dict[str, Part] = {TOP: Part(TOP, 1, netlist.count(top, library))}
+        for name, module in netlist.modules(self.design).items():
+            if module["cells"] and module is not top:
+                plain = re.sub(r"__\d+$", "", name)
+                own = Counts(*(value * numbers[name] for value in astuple(netlist.count(module, library))))
+                before = found.get(plain, Part(plain, 0, Counts(0, 0, 0.0, 0, 0.0, 0.0, 0.0)))
+                found[plain] = Part(plain, before.instances + numbers[name],
+                                    Counts(*(a + b for a, b in zip(astuple(before.counts), astuple(own)))))
+        return sorted(found.values(), key=lambda part: -part.counts.area)
+
+
+def _slacks(margin: Margin) -> Slacks:
+    return Slacks(margin.slack, margin.hold_slack, margin.reset_slack, margin.start, margin.end)
+
+
+def _attempt(result: Result, technology: Technology, ports: dict[str, Ports], folder: Path, number: int) -> tuple[_Timed, Slacks]:
+    configuration = result.configuration
+    design = map_to_cells(configuration, technology, folder, EFFORTS[number])
+    others = connect_stand_in(design, ports["slow"])
+    library = technology.slow
+    _trees(design, library, ports["slow"])
+    called = spef.plain_names(design)
+    effort = folder / f"effort{number}"
+    effort.mkdir(exist_ok=True)
+    (effort / timing.NAMES).write_text(json.dumps({plain: name for before in called.values() for plain, name in before.items()}),
+                                       encoding="utf-8")
+    timed = _Timed(configuration, technology, effort, design, ports, others)
+    timed.write()
+    return timed, timed.close_setup()
+
+
+def measure(result: Result, technology: Technology, runs: Path, folder: Path) -> Subsystem:
+    """The subsystem around the array that run.run left in `runs`. FlowError at the first step that fails; a path that misses the clock is a
+    figure and no error."""
+    configuration = result.configuration
+    ports = {corner: array_stand_in.measure(result, technology, runs, corner) for corner in CORNERS}
+    generic(configuration, technology, folder)
+    attempts = []
+    for number in range(len(EFFORTS)):
+        attempts.append(_attempt(result, technology, ports, folder, number))
+        if attempts[-1][1].setup >= 0:
+            break
+    timed, _ = max(attempts, key=lambda attempt: min(attempt[1].setup, 0.0))
+    timed.fix_hold()
+    timed.close_setup()
+    ends, late = timed.ends()
+    slacks = {(corner, mode): timed.slacks(corner, mode) for corner in CORNERS for mode in MODES}
+    return Subsystem(configuration, timed.parts(), result.total_mm2, slacks, ends, late, technology.target_mhz)
+
+
+def measure_all(results: list[Result], technology: Technology, build: Path, workers: int, progress: Callable[[str], None]) -> list[Subsystem]:
+    """The subsystems around several arrays, whose runs are in `build`. The first failure stops all."""
+    with ProcessPoolExecutor(workers) as pool:
+        futures = {result.configuration.name: pool.submit(measure, result, technology, build / "runs" / result.configuration.name,
+                                                          build / "subsystem" / result.configuration.name) for result in results}
+        found = []
+        for name, future in futures.items():
+            found.append(future.result())
+            progress(f"[{len(found)}/{len(futures)}] {name}")
+    return found
