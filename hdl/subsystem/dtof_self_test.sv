@@ -31,7 +31,7 @@ module dtof_self_test #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    input  logic                   clear_i,      // clears passed_o: software wants a self-test
+    input  logic                   clear_i,      // clears passed_o: a self-test is commanded
     input  logic                   chosen_i,     // with begin_i: the frame is a self-test
     input  logic                   begin_i,      // a frame begins
     input  logic                   abort_i,      // the frame ends now

@@ -332,7 +332,7 @@ module dtof_subsystem #(
       .rst_ni            (rst_ni),
       .start_i           (start && !test_refused),
       .abort_i           (abort),
-      .resetting_i       (resetting || test_busy),
+      .resetting_i       (resetting || (test_busy && !running)),
       .continuous_i      (continuous && !test_frame),
       .acquisitions_i    (acquisitions),
       .coarse_end_i      (coarse_end),
