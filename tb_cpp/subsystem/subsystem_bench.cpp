@@ -223,11 +223,16 @@ void SubsystemBench::begin_frame() {
   }
 }
 
-void SubsystemBench::take_test_line() {
-  if (*ports_.array_line_ready != 0) {
-    throw RtlError("a self-test takes a line of the source");
+void SubsystemBench::observe_self_test() {
+  if (*ports_.test_frame != 0 && *ports_.result_valid != 0) {
+    throw RtlError("a word of a self-test leaves");
   }
-  frames_.back().lines.push_back(array_line());
+  if (*ports_.test_take != 0) {
+    if (*ports_.array_line_ready != 0) {
+      throw RtlError("a self-test takes a line of the source");
+    }
+    frames_.back().lines.push_back(array_line());
+  }
 }
 
 void SubsystemBench::take_array_line() {
@@ -292,12 +297,7 @@ void SubsystemBench::observe_lines() {
   if (offered && ready && !rests) {
     take_array_line();
   }
-  if (*ports_.test_take != 0) {
-    take_test_line();
-  }
-  if (*ports_.test_frame != 0 && *ports_.result_valid != 0) {
-    throw RtlError("a word of a self-test leaves");
-  }
+  observe_self_test();
   const bool refused = *ports_.line_valid != 0 && *ports_.line_ready == 0;
   const bool sink_refuses = *ports_.result_valid != 0 && *ports_.result_ready == 0;
   if (refused && !commanded && reference_.exact() && reference_.waiting() < buffer_lines_) {

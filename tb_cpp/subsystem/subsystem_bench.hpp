@@ -92,7 +92,7 @@ class SubsystemBench {
   void set(std::uint32_t offset, std::uint32_t data);
 
  private:
-  void take_test_line();
+  void observe_self_test();
   void run_transfer();
   void observe_lines();
   void take_array_line();
