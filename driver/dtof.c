@@ -4,6 +4,7 @@
 #define WHOLE_FRAME 64U /* a frame in 64ths */
 #define LIGHT_MM_PER_PS 0.299792458
 #define COLUMNS_OF_A_WORD 32U
+#define SHORT_WORD_BITS 32U
 #define MOST_READS_OF_AN_ABORT 100U /* it takes 16 clocks */
 
 static dtof_status read_register(const dtof_device *device, uint32_t offset, uint32_t *value) {
@@ -150,8 +151,9 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
        (settings->second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0U) |
            (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U) |
            (settings->smooth && device->has_schedule ? DTOF_OUTPUT_SMOOTH_MASK : 0U) |
-           (settings->prior ? DTOF_OUTPUT_PRIOR_MASK : 0U),
-       device->has_schedule || device->has_raw_histogram},
+           (settings->prior ? DTOF_OUTPUT_PRIOR_MASK : 0U) |
+           (settings->short_words ? DTOF_OUTPUT_SHORT_WORDS_MASK : 0U),
+       true},
       {DTOF_RAW_ROWS,
        (uint32_t)settings->raw_first_row << DTOF_RAW_ROWS_FIRST_LSB | (uint32_t)settings->raw_last_row
                                                                           << DTOF_RAW_ROWS_LAST_LSB,
@@ -414,6 +416,98 @@ dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, 
   return DTOF_OK;
 }
 
+dtof_status dtof_pixel_at(const dtof_device *device, size_t index, uint16_t *row, uint16_t *column) {
+  if (index >= (size_t)device->rows * device->columns) {
+    return DTOF_ARGUMENT;
+  }
+  if (device->has_raster_order || !device->has_schedule) {
+    *row = (uint16_t)(index / device->columns);
+    *column = (uint16_t)(index % device->columns);
+    return DTOF_OK;
+  }
+  /* Each turn has a column of every engine; the last engine may have no column in the later turns. */
+  size_t engines = ((size_t)device->columns + device->engine_columns - 1U) / device->engine_columns;
+  size_t turns_of_all = device->columns - (engines - 1U) * device->engine_columns;
+  size_t pixels_of_all = turns_of_all * engines * device->rows;
+  size_t turn = 0;
+  if (index >= pixels_of_all) {
+    index -= pixels_of_all;
+    turn = turns_of_all;
+    --engines;
+  }
+  turn += index / (engines * device->rows);
+  *row = (uint16_t)(index / engines % device->rows);
+  *column = (uint16_t)(index % engines * device->engine_columns + turn);
+  return DTOF_OK;
+}
+
+dtof_status dtof_unpack_short(uint32_t word, dtof_result *result) {
+  /* A result has at least one of these bits. */
+  const uint32_t status = DTOF_SHORT_RESULT_VALID_MASK | DTOF_SHORT_RESULT_WEAK_MASK |
+                          DTOF_SHORT_RESULT_EMPTY_MASK | DTOF_SHORT_RESULT_MASKED_MASK;
+  if (FIELD(word, DTOF_SHORT_RESULT_ABORTED) != 0) {
+    return DTOF_ABORTED;
+  }
+  if ((word & status) == 0) {
+    return DTOF_STREAM;
+  }
+  if (FIELD(word, DTOF_SHORT_RESULT_SECOND) != 0) {
+    result->has_second = true;
+    result->second_position = (uint16_t)FIELD(word, DTOF_SHORT_RESULT_POSITION);
+    return DTOF_OK;
+  }
+  result->position = (uint16_t)FIELD(word, DTOF_SHORT_RESULT_POSITION);
+  result->confidence = (uint16_t)FIELD(word, DTOF_SHORT_RESULT_CONFIDENCE);
+  result->valid = FIELD(word, DTOF_SHORT_RESULT_VALID) != 0;
+  result->weak = FIELD(word, DTOF_SHORT_RESULT_WEAK) != 0;
+  result->empty = FIELD(word, DTOF_SHORT_RESULT_EMPTY) != 0;
+  result->masked = FIELD(word, DTOF_SHORT_RESULT_MASKED) != 0;
+  result->saturated = FIELD(word, DTOF_SHORT_RESULT_SATURATED) != 0;
+  result->raw = false;
+  result->has_second = false;
+  result->second_position = 0;
+  return DTOF_OK;
+}
+
+static uint32_t short_word(const uint64_t *words, size_t index) {
+  return (uint32_t)(words[index / 2U] >> (index % 2U * SHORT_WORD_BITS));
+}
+
+/* The word that ends an aborted frame: its highest bit is set, or that of its lower half alone, which is no
+ * result either. */
+static bool ends_aborted(const uint64_t *words, size_t count) {
+  return count > 0 && (FIELD(words[count - 1], DTOF_RESULT_ABORTED) != 0 ||
+                       words[count - 1] == DTOF_SHORT_RESULT_ABORTED_MASK);
+}
+
+dtof_status dtof_unpack_short_frame(const dtof_device *device, const uint64_t *words, size_t count,
+                                    dtof_result *results) {
+  size_t pixels = (size_t)device->rows * device->columns;
+  if (ends_aborted(words, count)) {
+    return DTOF_ABORTED;
+  }
+  /* In a frame with second targets the second short word is one. */
+  size_t words_of_a_pixel = count > 0 && FIELD(short_word(words, 1), DTOF_SHORT_RESULT_SECOND) != 0 ? 2U : 1U;
+  size_t expected = words_of_a_pixel * pixels;
+  if (count != (expected + 1U) / 2U || (expected % 2U != 0 && short_word(words, expected) != 0)) {
+    return DTOF_STREAM;
+  }
+  for (size_t i = 0; i < pixels; ++i) {
+    dtof_result result;
+    dtof_status status = dtof_pixel_at(device, i, &result.row, &result.column);
+    for (size_t k = 0; status == DTOF_OK && k < words_of_a_pixel; ++k) {
+      uint32_t word = short_word(words, words_of_a_pixel * i + k);
+      status = (FIELD(word, DTOF_SHORT_RESULT_SECOND) != 0) == (k == 1U) ? dtof_unpack_short(word, &result)
+                                                                         : DTOF_STREAM;
+    }
+    if (status != DTOF_OK) {
+      return DTOF_STREAM;
+    }
+    results[(size_t)result.row * device->columns + result.column] = result;
+  }
+  return DTOF_OK;
+}
+
 dtof_status dtof_unpack_raw(const dtof_device *device, uint16_t first_row, uint16_t last_row,
                             const uint64_t *words, size_t count, dtof_result *bins) {
   if (first_row > last_row || last_row >= device->rows ||
@@ -510,7 +604,7 @@ dtof_status dtof_check_frame(const dtof_device *device, const uint64_t *words, s
                              uint32_t *frame) {
   uint32_t crc = 0;
   uint32_t later = 0;
-  if (count > 0 && FIELD(words[count - 1], DTOF_RESULT_ABORTED) != 0) {
+  if (ends_aborted(words, count)) {
     return DTOF_ABORTED;
   }
   dtof_status status = read_register(device, DTOF_FRAME_COUNT, frame);

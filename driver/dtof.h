@@ -102,7 +102,8 @@ typedef struct {
   uint8_t
       shot_bits; /* start dither: shot_o is delayed by 0 to 2^shot_bits - 1 units; at most 7; 0: no delay */
   uint8_t shot_unit; /* clocks of a unit */
-  uint16_t settle; /* acquisitions at the frame's start that are dropped, before the first one that counts */
+  uint16_t settle;  /* acquisitions at the frame's start that are dropped, before the first one that counts */
+  bool short_words; /* results of 32 bits, two in each word of the stream; without effect on raw frames */
 } dtof_settings;
 
 /* State and errors of the device. Reading them clears nothing. */
@@ -240,6 +241,21 @@ dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *r
  * second target. */
 dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, size_t count,
                               dtof_result *results);
+
+/* Row and column of the pixel with this index in the order of the stream: row by row, or the order of
+ * poolPointer's engines. Of a frame with second targets, index / 2 is the index of a word's pixel.
+ * DTOF_ARGUMENT if the array has no such pixel. */
+dtof_status dtof_pixel_at(const dtof_device *device, size_t index, uint16_t *row, uint16_t *column);
+
+/* Unpacks a short word. Row and column of the result, which it does not have, stay as they are. For the word
+ * of a second target, pass the result that the word before has filled. DTOF_STREAM if the word is no result,
+ * DTOF_ABORTED if it marks an aborted frame. */
+dtof_status dtof_unpack_short(uint32_t word, dtof_result *result);
+
+/* Unpacks a frame of short words as dtof_unpack_frame does. `count` is the number of words of 64 bits. A
+ * confidence above 511 is 511. DTOF_STREAM unless the frame has a short word of each pixel, or two. */
+dtof_status dtof_unpack_short_frame(const dtof_device *device, const uint64_t *words, size_t count,
+                                    dtof_result *results);
 
 /* Unpacks the words of a raw frame: rows first_row to last_row, in the order of the stream (row, bin,
  * column). The bins of a pixel are contiguous in `bins`, at ((row - first_row) * columns + column) * raw_bins

@@ -207,6 +207,7 @@ module example_bench #(
 
   initial begin : software
     logic [31:0] value, cycles;
+    int coarse, track;
     repeat (3) @(posedge clk);
     #0.1 rst_n = 1'b1;
 
@@ -216,10 +217,13 @@ module example_bench #(
     fraction_bits = int'(value[dtof_registers_pkg::WIDTHS_FRACTION_LSB+:dtof_registers_pkg::WIDTHS_FRACTION_WIDTH]);
 
     write(dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
-    // poolPointer's schedule: 14/64 of the frame for the coarse phase, 30/64 for the track phase.
+    // poolPointer's recommended schedule, in 64ths of the frame.
     if (READOUT == dtof_pkg::READOUT_POOLPOINTER) begin
-      write(dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
-      write(dtof_registers_pkg::TRACK_END, ACQUISITIONS * 44 / 64);
+      read(dtof_registers_pkg::SHARES, value);
+      coarse = int'(value[dtof_registers_pkg::SHARES_COARSE_LSB+:dtof_registers_pkg::SHARES_COARSE_WIDTH]);
+      track = int'(value[dtof_registers_pkg::SHARES_TRACK_LSB+:dtof_registers_pkg::SHARES_TRACK_WIDTH]);
+      write(dtof_registers_pkg::COARSE_END, ACQUISITIONS * coarse / 64);
+      write(dtof_registers_pkg::TRACK_END, ACQUISITIONS * (coarse + track) / 64);
     end
     write(dtof_registers_pkg::WEAK_BELOW, 2);
     write(dtof_registers_pkg::IRQ_ENABLE, 32'd1 << dtof_registers_pkg::IRQ_ENABLE_FRAME_LSB);

@@ -154,8 +154,8 @@ module timing_bench #(
     int index;
     transfer(1'b1, dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
     if (READOUT == dtof_pkg::READOUT_POOLPOINTER) begin
-      transfer(1'b1, dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
-      transfer(1'b1, dtof_registers_pkg::TRACK_END, ACQUISITIONS * 44 / 64);
+      transfer(1'b1, dtof_registers_pkg::COARSE_END, ACQUISITIONS * u_subsystem.COARSE_SHARE / 64);
+      transfer(1'b1, dtof_registers_pkg::TRACK_END, ACQUISITIONS * (u_subsystem.COARSE_SHARE + u_subsystem.TRACK_SHARE) / 64);
     end
     line_valid = 1'b1;
     line = {WIDTH{1'b1}};

@@ -71,7 +71,7 @@ module apb_registers_properties #(
 
   localparam int MOST_RELEASE = 5;
 
-  logic pready, pslverr, start, self_test, flush, abort, continuous, reseed, second, raw, smooth, prior, irq;
+  logic pready, pslverr, start, self_test, flush, abort, continuous, reseed, second, raw, smooth, prior, short_words, irq;
   logic [31:0] prdata, test_seed, test_expected;
   logic [23:0] watchdog;
   logic [15:0] seed, release_lines, weak_below, settle;
@@ -152,6 +152,7 @@ module apb_registers_properties #(
       .smooth_o           (smooth),
       .template_o         (coarse_template),
       .prior_o            (prior),
+      .short_words_o      (short_words),
       .gate_begin_o       (gate_begin),
       .gate_end_o         (gate_end),
       .release_o          (release_lines),
@@ -214,7 +215,7 @@ module apb_registers_properties #(
       dtof_registers_pkg::GATE: if (TIME_GATE != 0) kept_bits = (low_bits(NP) << 16) | low_bits(NP);
       dtof_registers_pkg::RELEASE: kept_bits = 32'h0000ffff;
       dtof_registers_pkg::WEAK_BELOW: kept_bits = (CONFIDENCE_WIDTH < 16) ? low_bits(CONFIDENCE_WIDTH + 1) : 32'h0000ffff;
-      dtof_registers_pkg::OUTPUT: kept_bits = {28'd0, PRIOR != 0, HAS_SCHEDULE != 0, RAW_HISTOGRAM != 0, SECOND_TARGET != 0};
+      dtof_registers_pkg::OUTPUT: kept_bits = {27'd0, 1'b1, PRIOR != 0, HAS_SCHEDULE != 0, RAW_HISTOGRAM != 0, SECOND_TARGET != 0};
       dtof_registers_pkg::RAW_ROWS: if (RAW_HISTOGRAM != 0) kept_bits = 32'h0fff0fff;
       dtof_registers_pkg::SHOT: kept_bits = 32'h0000ff07;
       dtof_registers_pkg::SHOT_SEED, dtof_registers_pkg::SETTLE: kept_bits = 32'h0000ffff;
@@ -382,7 +383,7 @@ module apb_registers_properties #(
       dtof_registers_pkg::GATE: shown = {16'(gate_end), 16'(gate_begin)};
       dtof_registers_pkg::RELEASE: shown = 32'(release_lines);
       dtof_registers_pkg::WEAK_BELOW: shown = 32'(weak_below);
-      dtof_registers_pkg::OUTPUT: shown = {28'd0, prior, smooth, raw, second};
+      dtof_registers_pkg::OUTPUT: shown = {27'd0, short_words, prior, smooth, raw, second};
       dtof_registers_pkg::RAW_ROWS: shown = {4'd0, raw_last, 4'd0, raw_first};
       dtof_registers_pkg::SHOT: shown = {16'd0, shot_unit, 5'd0, shot_bits};
       dtof_registers_pkg::SETTLE: shown = 32'(settle);

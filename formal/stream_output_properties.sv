@@ -17,13 +17,14 @@ module stream_output_properties #(
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int CONFIDENCE_BITS = (CONFIDENCE_WIDTH > 0) ? CONFIDENCE_WIDTH : 1,
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
-    localparam int ENTRY_WIDTH = 66
+    localparam int ENTRY_WIDTH = 67
 ) (
     input logic                       clk_i,
     input logic                       reset_i,
     input logic [               15:0] weak_below_i,
     input logic [       SRAM_NUM-1:0] enable_i,
     input logic                       raw_i,
+    input logic                       short_i,
     input logic                       cut_i,
     input logic                       result_tvalid_i,
     input logic [   COLUMN_WIDTH-1:0] column_i,
@@ -54,7 +55,7 @@ module stream_output_properties #(
     end
   endgenerate
 
-  logic result_tready, tvalid, tuser, tlast;
+  logic result_tready, tvalid, tuser, tlast, is_short;
   logic [63:0] tdata;
 
   dtof_stream_output #(
@@ -71,6 +72,7 @@ module stream_output_properties #(
       .weak_below_i   (weak_below_i),
       .enable_i       (enable_i),
       .raw_i          (raw_i),
+      .short_i        (short_i),
       .cut_i          (cut_i),
       .result_tvalid_i(result_tvalid_i),
       .result_tready_o(result_tready),
@@ -81,14 +83,14 @@ module stream_output_properties #(
       .m_axis_tready_i(m_axis_tready_i),
       .m_axis_tdata_o (tdata),
       .m_axis_tuser_o (tuser),
-      .m_axis_tlast_o (tlast)
+      .m_axis_tlast_o (tlast),
+      .m_axis_short_o (is_short)
   );
 
-  // Expected words in a queue: {first, last, word}, the oldest in slot 0.
-  logic [ENTRY_WIDTH-1:0] slot0_q, slot1_q, entry;
+  // Expected words in a queue: {short, first, last, word}, the oldest in slot 0.
+  logic [ENTRY_WIDTH-1:0] slot0_q, slot1_q, entry, aborted;
   logic [1:0] count_q;
-  logic begins_q, weak, empty, masked, saturated, push, pop, stays, open, popped_open_q;
-  localparam logic [ENTRY_WIDTH-1:0] ABORTED = {1'b0, 1'b1, 1'b1, 63'd0};  // not first, last, and the highest bit of the word set
+  logic begins_q, weak, empty, masked, saturated, push, pop, stays, open, popped_open_q, popped_short_q;
 
   assign weak = (HAS_CONFIDENCE > 0) && !raw_i && (confidence < weak_below_i);
   assign empty = (HAS_CONFIDENCE > 0) && !raw_i && (confidence == 16'd0);
@@ -98,7 +100,7 @@ module stream_output_properties #(
   assign above = 17'(confidence) + 17'd1;
   assign saturated = (CONFIDENCE_WIDTH > 0) && (raw_i ? above == 17'd1 << RAW_COUNTER_WIDTH
       : (COUNTER_WIDTH > 0 && above == 17'd1 << COUNTER_WIDTH));
-  assign entry = {begins_q, result_tlast_i, 1'b0, raw_i, result_second_i, saturated, masked, empty, weak,
+  assign entry = {short_i, begins_q, result_tlast_i, 1'b0, raw_i, result_second_i, saturated, masked, empty, weak,
                   !weak && !empty && !masked, 12'(column_i), 12'(row_i), confidence, 16'(position_i)};
   assign push = result_tvalid_i && result_tready;
   assign pop = tvalid && m_axis_tready_i;
@@ -106,6 +108,8 @@ module stream_output_properties #(
   // The frame of the word that is, or was last, at the port has not ended with this word.
   assign open = (count_q != 2'd0) ? !slot0_q[64] : popped_open_q;
   assign stays = (count_q != 2'd0) && !pop;
+  // The word that ends this frame: not first, last, its highest bit set.
+  assign aborted = {(count_q != 2'd0) ? slot0_q[66] : popped_short_q, 1'b0, 1'b1, 1'b1, 63'd0};
 
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
@@ -118,9 +122,10 @@ module stream_output_properties #(
       if (cut_i) begins_q <= 1'b1;
       popped_open_q <= open;
     end
+    popped_short_q <= aborted[66];
     if (cut_i) begin
-      if (!stays) slot0_q <= ABORTED;
-      slot1_q <= ABORTED;
+      if (!stays) slot0_q <= aborted;
+      slot1_q <= aborted;
     end else begin
       if (pop) slot0_q <= (count_q == 2'd2) ? slot1_q : entry;
       else if (push && count_q == 2'd0) slot0_q <= entry;
@@ -129,14 +134,14 @@ module stream_output_properties #(
   end
 
   axi_stream_rules #(
-      .WIDTH(66)
+      .WIDTH(67)
   ) u_rules (
       .clk_i   (clk_i),
       .rst_ni  (rst_n),
       .checking(checking),
       .tvalid_i(tvalid),
       .tready_i(m_axis_tready_i),
-      .tdata_i ({tuser, tlast, tdata})
+      .tdata_i ({is_short, tuser, tlast, tdata})
   );
 
   `ASSUME(m_column, 32'(column_i) < SRAM_NUM)
@@ -145,6 +150,7 @@ module stream_output_properties #(
   `PROVE(a_word, !(rst_n && tvalid) || tdata == slot0_q[63:0])
   `PROVE(a_tlast, !(rst_n && tvalid) || tlast == slot0_q[64])
   `PROVE(a_tuser, !(rst_n && tvalid) || tuser == slot0_q[65])
+  `PROVE(a_short, !(rst_n && tvalid) || is_short == slot0_q[66])
   `GOAL(rst_n && pop && tlast && count_q == 2'd2 && tdata[57] && !tuser)
 
 endmodule

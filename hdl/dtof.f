@@ -80,6 +80,7 @@ subsystem/dtof_array_reset.sv
 subsystem/dtof_line_filter.sv
 subsystem/dtof_target_words.sv
 subsystem/dtof_stream_output.sv
+subsystem/dtof_word_packer.sv
 subsystem/dtof_raster_buffer.sv
 subsystem/dtof_frame_control.sv
 subsystem/dtof_apb_registers.sv

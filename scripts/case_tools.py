@@ -148,6 +148,11 @@ def depth_map(folder: Path, file: str | Path, *options: str) -> list[int]:
     return [value for row in png(out / "histogram_depth_mm.png")[3] for value in row]
 
 
+def require_heading(done: Done, *parts: str) -> None:
+    for part in parts:
+        require(part in done.out, f"'{part}' is missing: {done.out.strip().splitlines()[0]}")
+
+
 def require_depths(measured: list[int], metres: Sequence[float | None], what: str) -> None:
     """Checks that known depths are measured; a pixel of unknown depth (None) has no light and must be 0."""
     for place, (value, truth) in enumerate(zip(measured, metres, strict=True)):

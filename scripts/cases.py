@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import case_tools as tools
-from case_tools import DTOF, ROOT, CaseError, depth_map, refused, require, require_depths, run, shell, succeed, with_shot
+from case_tools import DTOF, ROOT, CaseError, depth_map, refused, require, require_depths, require_heading, run, shell, succeed, with_shot
 from dtof_synth import program
 
 CASES = ROOT.parent / "shared" / "cases"
@@ -70,11 +70,6 @@ def true_distances(case: Case) -> list[float]:
     """True distances in mm for the measurements of a replay."""
     lines = (case.work / "out" / "measurements.csv").read_text(encoding="utf-8").splitlines()[1:]
     return [float(line.split(",")[0]) for line in lines]
-
-
-def require_heading(done: tools.Done, *parts: str) -> None:
-    for part in parts:
-        require(part in done.out, f"'{part}' is missing: {done.out.strip().splitlines()[0]}")
 
 
 # Maps.

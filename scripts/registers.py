@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""hdl/subsystem/registers.toml: the registers of dtof_subsystem and its result word, as the constants of the RTL, a C
+"""hdl/subsystem/registers.toml: the registers of dtof_subsystem and its result words, as the constants of the RTL, a C
 header and tables of Markdown. scripts/generate.py writes them; register_maps.py has the formats of others' tools."""
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ ACCESS = {"constant": "read", "status": "read", "setting": "read, write", "comma
           "sticky": "read, write 1 clears"}  # fmt: skip
 READ_ONLY = ("constant", "status")
 BY_PARAMETERS = "parameters"  # a reset value that they decide
-REGISTER_BITS, RESULT_BITS, ADDRESS_BITS = 32, 64, 12
+REGISTER_BITS, RESULT_BITS, SHORT_RESULT_BITS, ADDRESS_BITS = 32, 64, 32, 12
 
 
 @dataclass(frozen=True)
@@ -89,6 +89,7 @@ class Map:
     minor: int
     registers: list[Register]
     result: list[Field]
+    short_result: list[Field]
 
 
 def checked_fields(where: str, entries: dict, bits: int, access: bool) -> list[Field]:
@@ -120,10 +121,11 @@ def parse(text: str) -> Map:
             fields = checked_fields(f"{where}: {name}", entry.pop("fields"), REGISTER_BITS, access=True)
             registers.append(Register(name, fields=fields, **entry))
         result = checked_fields(f"{where}: result", table["result"], RESULT_BITS, access=False)
+        short_result = checked_fields(f"{where}: short_result", table["short_result"], SHORT_RESULT_BITS, access=False)
         known = {"ID": {"VALUE": table["id"]}, "VERSION": {"MAJOR": table["major"], "MINOR": table["minor"]}}
         registers = [replace(register, fields=[replace(field, reset=known.get(register.name, {}).get(field.name, field.reset))
                                                for field in register.fields]) for register in registers]
-        whole = Map(table["id"], table["major"], table["minor"], registers, result)
+        whole = Map(table["id"], table["major"], table["minor"], registers, result, short_result)
     except (tomllib.TOMLDecodeError, KeyError, TypeError) as error:
         raise FlowError(f"{where}: {error}") from None
     taken: dict[int, str] = {}
@@ -176,10 +178,12 @@ def systemverilog(whole: Map) -> str:
         for field in register.fields:
             lines.append(f"  localparam int {register.name}_{field.name}_LSB = {field.lowest};")
             lines.append(f"  localparam int {register.name}_{field.name}_WIDTH = {field.width};")
-    lines += ["", "  // A result.", f"  localparam int RESULT_WIDTH = {RESULT_BITS};"]
-    for field in whole.result:
-        lines.append(f"  localparam int RESULT_{field.name}_LSB = {field.lowest};")
-        lines.append(f"  localparam int RESULT_{field.name}_WIDTH = {field.width};")
+    for title, prefix, bits, fields in (("A result.", "RESULT", RESULT_BITS, whole.result),
+                                        ("A short result.", "SHORT_RESULT", SHORT_RESULT_BITS, whole.short_result)):  # fmt: skip
+        lines += ["", f"  // {title}", f"  localparam int {prefix}_WIDTH = {bits};"]
+        for field in fields:
+            lines.append(f"  localparam int {prefix}_{field.name}_LSB = {field.lowest};")
+            lines.append(f"  localparam int {prefix}_{field.name}_WIDTH = {field.width};")
     for name, chosen in (("is_register", whole.registers),
                          ("is_writable", [register for register in whole.registers if register.writable])):  # fmt: skip
         lines += ["", f"  function automatic bit {name}(input logic [11:0] offset);",
@@ -220,6 +224,9 @@ def c_header(whole: Map) -> str:
     lines += ["", "/* A result: a word of 64 bits. */"]
     for field in whole.result:
         lines += field_lines("DTOF_RESULT", field, RESULT_BITS)
+    lines += ["", "/* A short result: half a beat of 64 bits. */"]
+    for field in whole.short_result:
+        lines += field_lines("DTOF_SHORT_RESULT", field, SHORT_RESULT_BITS)
     return "\n".join([*lines, "", "#endif"]) + "\n"
 
 
@@ -232,15 +239,16 @@ def register_table(whole: Map) -> str:
     return "\n".join(lines) + "\n"
 
 
-def result_table(whole: Map) -> str:
+def result_table(fields: list[Field]) -> str:
     lines = ["| bits | field | meaning |", "|---|---|---|"]
-    lines += [f"| {field.place} | `{field.name}` | {field.help} |" for field in whole.result]
+    lines += [f"| {field.place} | `{field.name}` | {field.help} |" for field in fields]
     return "\n".join(lines) + "\n"
 
 
 def page(text: str, whole: Map) -> str:
-    """The page with both tables between their marks."""
-    for name, table in (("registers", register_table(whole)), ("result word", result_table(whole))):
+    """The page with the tables between their marks."""
+    for name, table in (("registers", register_table(whole)), ("result word", result_table(whole.result)),
+                        ("short result word", result_table(whole.short_result))):  # fmt: skip
         begin = f"<!-- {name}: written by scripts/generate.py -->\n"
         end = f"<!-- end of {name} -->\n"
         if text.count(begin) != 1 or text.count(end) != 1:

@@ -88,6 +88,7 @@ module dtof_apb_registers #(
     output logic                 smooth_o,
     output logic [        255:0] template_o,     // written without a commit; writable only while busy_i is low; 0 without HAS_SCHEDULE
     output logic                 prior_o,        // 0 without PRIOR
+    output logic                 short_words_o,
     output logic [       NP-1:0] gate_begin_o,   // gate_begin_o and gate_end_o are 0 without TIME_GATE
     output logic [       NP-1:0] gate_end_o,
     output logic [         15:0] release_o,
@@ -172,6 +173,7 @@ module dtof_apb_registers #(
   logic [15:0] shot_seed_q;
   logic [15:0] settle_q;
   logic shot_reseed_q;
+  logic short_words_q;
   logic [SRAM_NUM-1:0] enable_q;
 
   always_comb begin
@@ -220,6 +222,7 @@ module dtof_apb_registers #(
       shot_seed_q <= 16'(dtof_registers_pkg::SHOT_SEED_RESET);
       shot_reseed_q <= 1'b0;
       settle_q <= '0;
+      short_words_q <= 1'b0;
     end else begin
       start_q <= starts;
       flush_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_FLUSH_LSB];
@@ -254,6 +257,10 @@ module dtof_apb_registers #(
           end
           dtof_registers_pkg::SHOT_SEED: shot_seed_q <= (shot_seed_q & ~mask[15:0]) | written[15:0];
           dtof_registers_pkg::SETTLE: settle_q <= (settle_q & ~mask[15:0]) | written[15:0];
+          dtof_registers_pkg::OUTPUT:
+          if (mask[dtof_registers_pkg::OUTPUT_SHORT_WORDS_LSB]) begin
+            short_words_q <= written[dtof_registers_pkg::OUTPUT_SHORT_WORDS_LSB];
+          end
           default: begin
           end
         endcase
@@ -494,6 +501,7 @@ module dtof_apb_registers #(
       enable_o <= enable_q;
       shot_bits_o <= shot_bits_q;
       shot_unit_o <= shot_unit_q;
+      short_words_o <= short_words_q;
       settle_o <= settle_q;
     end
   end
@@ -513,7 +521,8 @@ module dtof_apb_registers #(
       (((SECOND_TARGET != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB)
       | (((RAW_HISTOGRAM != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_RAW_LSB)
       | (((HAS_SCHEDULE != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_SMOOTH_LSB)
-      | (((PRIOR != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_PRIOR_LSB);
+      | (((PRIOR != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_PRIOR_LSB)
+      | (32'd1 << dtof_registers_pkg::OUTPUT_SHORT_WORDS_LSB);
   localparam logic [31:0] LAST_COLUMNS = 32'hffffffff >> (32 * ENABLE_WORDS - SRAM_NUM);
 
   always_comb begin
@@ -654,6 +663,7 @@ module dtof_apb_registers #(
         prdata_o[dtof_registers_pkg::OUTPUT_RAW_LSB] = raw;
         prdata_o[dtof_registers_pkg::OUTPUT_SMOOTH_LSB] = smooth;
         prdata_o[dtof_registers_pkg::OUTPUT_PRIOR_LSB] = prior;
+        prdata_o[dtof_registers_pkg::OUTPUT_SHORT_WORDS_LSB] = short_words_q;
       end
       dtof_registers_pkg::RAW_ROWS: begin
         prdata_o[dtof_registers_pkg::RAW_ROWS_FIRST_LSB+:12] = raw_first;

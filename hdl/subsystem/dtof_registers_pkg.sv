@@ -290,6 +290,8 @@ package dtof_registers_pkg;
   localparam int OUTPUT_SMOOTH_WIDTH = 1;
   localparam int OUTPUT_PRIOR_LSB = 3;
   localparam int OUTPUT_PRIOR_WIDTH = 1;
+  localparam int OUTPUT_SHORT_WORDS_LSB = 4;
+  localparam int OUTPUT_SHORT_WORDS_WIDTH = 1;
 
   // register k: columns 32 k and up; at reset all are enabled
   localparam logic [11:0] COLUMN_ENABLE = 12'h080;
@@ -413,6 +415,27 @@ package dtof_registers_pkg;
   localparam int RESULT_RAW_WIDTH = 1;
   localparam int RESULT_ABORTED_LSB = 63;
   localparam int RESULT_ABORTED_WIDTH = 1;
+
+  // A short result.
+  localparam int SHORT_RESULT_WIDTH = 32;
+  localparam int SHORT_RESULT_POSITION_LSB = 0;
+  localparam int SHORT_RESULT_POSITION_WIDTH = 16;
+  localparam int SHORT_RESULT_CONFIDENCE_LSB = 16;
+  localparam int SHORT_RESULT_CONFIDENCE_WIDTH = 9;
+  localparam int SHORT_RESULT_VALID_LSB = 25;
+  localparam int SHORT_RESULT_VALID_WIDTH = 1;
+  localparam int SHORT_RESULT_WEAK_LSB = 26;
+  localparam int SHORT_RESULT_WEAK_WIDTH = 1;
+  localparam int SHORT_RESULT_EMPTY_LSB = 27;
+  localparam int SHORT_RESULT_EMPTY_WIDTH = 1;
+  localparam int SHORT_RESULT_MASKED_LSB = 28;
+  localparam int SHORT_RESULT_MASKED_WIDTH = 1;
+  localparam int SHORT_RESULT_SATURATED_LSB = 29;
+  localparam int SHORT_RESULT_SATURATED_WIDTH = 1;
+  localparam int SHORT_RESULT_SECOND_LSB = 30;
+  localparam int SHORT_RESULT_SECOND_WIDTH = 1;
+  localparam int SHORT_RESULT_ABORTED_LSB = 31;
+  localparam int SHORT_RESULT_ABORTED_WIDTH = 1;
 
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h030)

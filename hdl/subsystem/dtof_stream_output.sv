@@ -6,7 +6,7 @@
 // second target; `weak`: confidence < weak_below_i; `empty`: confidence = 0, if the read-out has a confidence; `masked`: the column
 // is not enabled; `valid`: neither weak nor empty nor masked; `saturated`: the counter of COUNTER_WIDTH bits (raw frame:
 // RAW_COUNTER_WIDTH) has its largest value. Counts of a raw frame are neither weak nor empty.
-// tuser marks a frame's first word, tlast its last word.
+// tuser marks a frame's first word, tlast its last word. m_axis_short_o is short_i at the frame's results.
 // cut_i ends the frame: the word at the port stays until the sink takes it, and the second word is deleted. If words of the frame, but
 // not its last, have been at the port, a word in which only `aborted` is set, with tlast, ends the frame.
 // Latency: one clock. One word per clock while tready stays high. tvalid never falls before tready.
@@ -30,9 +30,10 @@ module dtof_stream_output #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    input  logic [           15:0] weak_below_i,   // weak_below_i, enable_i and raw_i are stable during a frame
+    input  logic [           15:0] weak_below_i,   // weak_below_i, enable_i, raw_i and short_i are stable during a frame
     input  logic [   SRAM_NUM-1:0] enable_i,
     input  logic                   raw_i,          // the frame's results are counts
+    input  logic                   short_i,        // the frame leaves as short words (dtof_word_packer)
     input  logic                   cut_i,          // ends the present frame; the next result is of another frame
     // from the array
     input  logic                   result_tvalid_i,
@@ -45,7 +46,8 @@ module dtof_stream_output #(
     input  logic                   m_axis_tready_i,
     output logic [ WORD_WIDTH-1:0] m_axis_tdata_o,
     output logic                   m_axis_tuser_o,  // first word of the frame
-    output logic                   m_axis_tlast_o
+    output logic                   m_axis_tlast_o,
+    output logic                   m_axis_short_o   // of the word at the port
 );
 
   logic [COLUMN_WIDTH-1:0] column;
@@ -96,16 +98,17 @@ module dtof_stream_output #(
 
   // The word at the port, and a second word for the clock before result_tready_o follows a sink that is not ready.
 
-  logic valid_q, last_q, first_q, behind_q, behind_last_q, behind_first_q, begins_q;
+  logic valid_q, last_q, first_q, short_q, behind_q, behind_last_q, behind_first_q, behind_short_q, begins_q;
   logic open_q;  // the last word at the port was not the last of its frame
   logic [WORD_WIDTH-1:0] word_q, behind_word_q, enters_word;
-  logic accepted, aborts, enters, enters_last, enters_first, waits, moves;
+  logic accepted, aborts, enters, enters_last, enters_first, enters_short, waits, moves;
 
   assign accepted = result_tvalid_i && result_tready_o;
   assign aborts = cut_i && open_q;
   assign enters = accepted || aborts;
   assign enters_last = aborts || result_tlast_i;
   assign enters_first = !aborts && begins_q;
+  assign enters_short = aborts ? short_q : short_i;  // an aborted word is of the frame that was at the port last
   assign waits = behind_q && !cut_i;
   assign moves = !valid_q || m_axis_tready_i;
 
@@ -146,11 +149,15 @@ module dtof_stream_output #(
       behind_word_q <= enters_word;
       behind_last_q <= enters_last;
       behind_first_q <= enters_first;
+      behind_short_q <= enters_short;
     end
     if (moves) begin
       word_q <= waits ? behind_word_q : enters_word;
       last_q <= waits ? behind_last_q : enters_last;
       first_q <= waits ? behind_first_q : enters_first;
+    end
+    if (moves && (waits || enters)) begin
+      short_q <= waits ? behind_short_q : enters_short;
     end
   end
 
@@ -159,16 +166,17 @@ module dtof_stream_output #(
   assign m_axis_tdata_o = word_q;
   assign m_axis_tuser_o = first_q;
   assign m_axis_tlast_o = last_q;
+  assign m_axis_short_o = short_q;
 
 `ifndef SYNTHESIS
   dtof_stream_rules #(
-      .WIDTH(WORD_WIDTH + 1)
+      .WIDTH(WORD_WIDTH + 2)
   ) u_stream_rules (
       .clk_i   (clk_i),
       .rst_ni  (rst_ni),
       .tvalid_i(m_axis_tvalid_o),
       .tready_i(m_axis_tready_i),
-      .tdata_i ({m_axis_tuser_o, m_axis_tdata_o}),
+      .tdata_i ({m_axis_short_o, m_axis_tuser_o, m_axis_tdata_o}),
       .tlast_i (m_axis_tlast_o)
   );
 `endif

@@ -8,7 +8,8 @@
 //    cannot be gated, the line buffer offers an acquisition to the array when all its lines have arrived. (A smaller RELEASE offers
 //    it earlier, with the risk of an underrun.)
 // 3. Timestamps of disabled columns, and timestamps outside the time gate, count as no detection.
-// 4. Results leave as words of 64 bits with a status, in the array's order or row by row. While the sink waits, the array waits.
+// 4. Results leave as words of 64 bits with a status, in the array's order or row by row, or as short words of 32 bits, two in each
+//    beat (OUTPUT.SHORT_WORDS). While the sink waits, the array waits.
 //    With SECOND_TARGET = 1 a frame can also have a word for each pixel's second target. With RAW_HISTOGRAM = 1 a frame can send
 //    histograms of chosen rows instead of results.
 // 5. After the sink has taken a frame's last result, the subsystem raises the interrupt; in continuous mode the next frame has begun
@@ -192,7 +193,7 @@ module dtof_subsystem #(
   // Registers and control of frames.
 
   logic [255:0] coarse_template;
-  logic start, flush, abort, continuous, second, raw, smooth, prior, begin_frame, running, busy, done, frame;
+  logic start, flush, abort, continuous, second, raw, short_words, smooth, prior, begin_frame, running, busy, done, frame;
   logic start_ignored, illegal_schedule, underrun, short_acquisition, long_acquisition, overrun, counter_full, aborted;
   logic timeout, stalled, resetting, in_reset, array_rst_n, flushes;
   logic [23:0] watchdog;
@@ -284,6 +285,7 @@ module dtof_subsystem #(
       .smooth_o          (smooth),
       .template_o        (coarse_template),
       .prior_o           (prior),
+      .short_words_o     (short_words),
       .gate_begin_o      (gate_begin),
       .gate_end_o        (gate_end),
       .release_o         (release_lines),
@@ -373,6 +375,7 @@ module dtof_subsystem #(
   logic [NP-1:0] frame_gate_begin_q, frame_gate_end_q;
   logic [15:0] frame_release_q;
   logic [15:0] frame_weak_below_q;
+  logic frame_short_q;  // a raw frame has no short words
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -388,6 +391,7 @@ module dtof_subsystem #(
       frame_gate_begin_q <= gate_begin;
       frame_gate_end_q <= gate_end;
       frame_weak_below_q <= weak_below;
+      frame_short_q <= short_words && !raw;
     end
   end
 
@@ -811,7 +815,7 @@ module dtof_subsystem #(
 
   // Words are stored for a slow sink at one place only, which keeps the rules of the stream when a frame is cut off: in u_stream_output, or in
   // raster order in u_raster_buffer.
-  logic word_tvalid, word_tready, word_tuser, word_tlast, output_rst_n, output_cut, aborted_word;
+  logic word_tvalid, word_tready, word_tuser, word_tlast, word_short, output_rst_n, output_cut, aborted_word;
   logic out_tvalid, out_tready, out_taken;  // of the port, and of words of a self-test, which stay inside
 
   assign m_axis_tvalid_o = out_tvalid && !test_frame;
@@ -819,6 +823,8 @@ module dtof_subsystem #(
   assign out_taken = out_tvalid && out_tready;
   assign word_ends = out_taken && m_axis_tlast_o && !aborted_word;
   logic [M_TDATA_WIDTH-1:0] word_tdata;
+  logic ordered_tvalid, ordered_tready, ordered_tuser, ordered_tlast, ordered_short;  // in the order in which the words leave
+  logic [M_TDATA_WIDTH-1:0] ordered_tdata;
 
   dtof_stream_output #(
       .SRAM_NUM         (SRAM_NUM),
@@ -834,6 +840,7 @@ module dtof_subsystem #(
       .weak_below_i   (frame_weak_below_q),
       .enable_i       (frame_enable_q),
       .raw_i          (frame_raw),
+      .short_i        (frame_short_q),
       .cut_i          (output_cut),
       .result_tvalid_i(target_tvalid && !resetting),
       .result_tready_o(target_tready),
@@ -844,7 +851,8 @@ module dtof_subsystem #(
       .m_axis_tready_i(word_tready),
       .m_axis_tdata_o (word_tdata),
       .m_axis_tuser_o (word_tuser),
-      .m_axis_tlast_o (word_tlast)
+      .m_axis_tlast_o (word_tlast),
+      .m_axis_short_o (word_short)
   );
 
   generate
@@ -889,30 +897,39 @@ module dtof_subsystem #(
           .s_row_i   (word_tdata[ROW_LSB+:ROW_WIDTH]),
           .s_second_i(word_tdata[dtof_registers_pkg::RESULT_SECOND_LSB]),
           .s_tlast_i (word_tlast),
-          .m_tvalid_o(out_tvalid),
-          .m_tready_i(out_tready),
+          .m_tvalid_o(ordered_tvalid),
+          .m_tready_i(ordered_tready),
           .m_result_o({status, confidence, position}),
           .m_column_o(column),
           .m_row_o   (row),
           .m_second_o(second_word),
           .m_aborted_o(aborted_word),
-          .m_tlast_o (m_axis_tlast_o)
+          .m_tlast_o (ordered_tlast)
       );
 
-      always_comb begin
-        m_axis_tdata_o = '0;
-        if (aborted_word) begin
-          m_axis_tdata_o[dtof_registers_pkg::RESULT_ABORTED_LSB] = 1'b1;
-        end else begin
-          m_axis_tdata_o[STATUS_LSB+:STATUS_WIDTH] = status;
-          m_axis_tdata_o[CONFIDENCE_LSB+:KEPT_CONFIDENCE] = confidence;
-          m_axis_tdata_o[dtof_registers_pkg::RESULT_POSITION_LSB+:POSITION_WIDTH] = position;
-          m_axis_tdata_o[COLUMN_LSB+:COLUMN_WIDTH] = column;
-          m_axis_tdata_o[ROW_LSB+:ROW_WIDTH] = row;
-          m_axis_tdata_o[dtof_registers_pkg::RESULT_SECOND_LSB] = second_word;
+      // The frame that leaves the buffer: the next frame's words are not accepted before its end.
+      logic short_q;
+      always_ff @(posedge clk_i) begin
+        if (word_tvalid && word_tready) begin
+          short_q <= word_short;
         end
       end
-      assign m_axis_tuser_o = (column == '0) && (row == '0) && !second_word && !aborted_word;
+      assign ordered_short = short_q;
+
+      always_comb begin
+        ordered_tdata = '0;
+        if (aborted_word) begin
+          ordered_tdata[dtof_registers_pkg::RESULT_ABORTED_LSB] = 1'b1;
+        end else begin
+          ordered_tdata[STATUS_LSB+:STATUS_WIDTH] = status;
+          ordered_tdata[CONFIDENCE_LSB+:KEPT_CONFIDENCE] = confidence;
+          ordered_tdata[dtof_registers_pkg::RESULT_POSITION_LSB+:POSITION_WIDTH] = position;
+          ordered_tdata[COLUMN_LSB+:COLUMN_WIDTH] = column;
+          ordered_tdata[ROW_LSB+:ROW_WIDTH] = row;
+          ordered_tdata[dtof_registers_pkg::RESULT_SECOND_LSB] = second_word;
+        end
+      end
+      assign ordered_tuser = (column == '0) && (row == '0) && !second_word && !aborted_word;
 
       logic unused_word;
       assign unused_word = ^{word_tuser, word_tdata};
@@ -923,13 +940,30 @@ module dtof_subsystem #(
       assign raster_cfg = '1;
       assign raster_parity_error = 1'b0;
       assign words_left = word_tvalid;
-      assign word_tready = out_tready;
-      assign out_tvalid = word_tvalid;
-      assign m_axis_tdata_o = word_tdata;
-      assign m_axis_tuser_o = word_tuser;
-      assign m_axis_tlast_o = word_tlast;
+      assign word_tready = ordered_tready;
+      assign ordered_tvalid = word_tvalid;
+      assign ordered_tdata = word_tdata;
+      assign ordered_tuser = word_tuser;
+      assign ordered_tlast = word_tlast;
+      assign ordered_short = word_short;
     end
   endgenerate
+
+  dtof_word_packer u_word_packer (
+      .clk_i     (clk_i),
+      .rst_ni    (rst_ni),
+      .short_i   (ordered_short),
+      .s_tvalid_i(ordered_tvalid),
+      .s_tready_o(ordered_tready),
+      .s_tdata_i (ordered_tdata),
+      .s_tuser_i (ordered_tuser),
+      .s_tlast_i (ordered_tlast),
+      .m_tvalid_o(out_tvalid),
+      .m_tready_i(out_tready),
+      .m_tdata_o (m_axis_tdata_o),
+      .m_tuser_o (m_axis_tuser_o),
+      .m_tlast_o (m_axis_tlast_o)
+  );
 
   dtof_frame_crc #(
       .WIDTH(M_TDATA_WIDTH)

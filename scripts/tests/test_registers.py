@@ -24,6 +24,9 @@ help = "who is in"
 fields.COUNT = { bits = [4, 31], access = "constant", help = "people" }
 [result]
 WORD = { bits = [8, 63], help = "all" }
+
+[short_result]
+HALF = { bits = [5, 31], help = "most" }
 """
 
 
@@ -37,6 +40,7 @@ class Descriptions(unittest.TestCase):
             (("bits = [8, 15]", "bits = [8, 32]"), "highest of 0 to 31"),
             (("bits = [8, 15]", "bits = [15, 8]"), "lowest and the highest"),
             (("bits = [8, 63]", "bits = [8, 64]"), "highest of 0 to 63"),
+            (("bits = [5, 31]", "bits = [5, 32]"), "short_result.HALF: bits must be .* highest of 0 to 31"),
             (('"setting"', '"command"'), "a command has one bit"),
             (('"setting"', '"wish"'), "access must be one of"),
             (('"setting"', '"setting", reset = 256'), "a number of its bits"),
@@ -54,7 +58,7 @@ class Descriptions(unittest.TestCase):
         for line in ("localparam logic [31:0] VERSION_VALUE = 32'h00020003;",
                      "localparam logic [11:0] DOOR = 12'h010;", "localparam int DOOR_NUMBER = 2;",
                      "localparam int SPEED_WANTED_LSB = 8;", "localparam int SPEED_WANTED_WIDTH = 8;",
-                     "localparam int RESULT_WORD_WIDTH = 56;",
+                     "localparam int RESULT_WORD_WIDTH = 56;", "localparam int SHORT_RESULT_HALF_LSB = 5;",
                      "is_register = (offset >= 12'h00c && offset <= 12'h014);",
                      "is_writable = offset == 12'h00c;"):  # fmt: skip
             self.assertIn(line, text)
@@ -69,14 +73,16 @@ class Descriptions(unittest.TestCase):
     def test_c_header(self):
         text = registers.c_header(registers.parse(SMALL))
         for line in ("#define DTOF_SPEED UINT32_C(0x00C)", "#define DTOF_SPEED_WANTED_MASK UINT32_C(0x0000FF00)",
-                     "#define DTOF_DOOR_COUNT_LSB 4", "#define DTOF_RESULT_WORD_MASK UINT64_C(0xFFFFFFFFFFFFFF00)"):  # fmt: skip
+                     "#define DTOF_DOOR_COUNT_LSB 4", "#define DTOF_RESULT_WORD_MASK UINT64_C(0xFFFFFFFFFFFFFF00)",
+                     "#define DTOF_SHORT_RESULT_HALF_MASK UINT32_C(0xFFFFFFE0)"):  # fmt: skip
             self.assertIn(line, text)
 
     def test_tables(self):
         whole = registers.parse(SMALL)
         self.assertIn("| 0x010 to 0x014 | `DOOR` | | | | who is in |", registers.register_table(whole))
         self.assertIn("| | | 15:8 | `WANTED` | read, write | wanted |", registers.register_table(whole))
-        self.assertIn("| 63:8 | `WORD` | all |", registers.result_table(whole))
+        self.assertIn("| 63:8 | `WORD` | all |", registers.result_table(whole.result))
+        self.assertIn("| 31:5 | `HALF` | most |", registers.result_table(whole.short_result))
         with self.assertRaisesRegex(FlowError, "no place for the table of registers"):
             registers.page("# A page\n", whole)
 

@@ -10,6 +10,21 @@
 #include "rtl/error.hpp"
 
 namespace dtof {
+namespace {
+
+/// True if the beat ends an aborted frame. In short words the half before the end has a result, or is the
+/// end.
+bool ends_aborted(std::uint64_t beat, bool short_words) {
+  if (!short_words) {
+    return beat == DTOF_RESULT_ABORTED_MASK;
+  }
+  const auto lower = static_cast<std::uint32_t>(beat);
+  const auto upper = static_cast<std::uint32_t>(beat >> 32U);
+  const bool result = lower != 0 && (lower & DTOF_SHORT_RESULT_ABORTED_MASK) == 0;
+  return result ? upper == DTOF_SHORT_RESULT_ABORTED_MASK : beat == DTOF_SHORT_RESULT_ABORTED_MASK;
+}
+
+}  // namespace
 
 void LineSource::drive() {
   offered_ = !waiting_.empty() && (offered_ || (!dead && random_.uniform() >= gap_probability));
@@ -65,17 +80,20 @@ void ResultSink::observe() {
   if (held_ && (word != held_word_ || first != held_first_ || last != held_last_)) {
     throw refuse("a word changed before tready");
   }
-  const bool aborts = valid && cut_ && (!held_ || held_word_ == DTOF_RESULT_ABORTED_MASK);
-  if (aborts && (word != DTOF_RESULT_ABORTED_MASK || first || !last)) {
+  if (inside_ && valid && !ends_aborted(word, true)) {
+    inside_ = false;  // nothing was inside
+  }
+  const bool aborts = valid && (inside_ || (cut_ && (!held_ || ends_aborted(held_word_, cut_short_))));
+  if (aborts && (!ends_aborted(word, inside_ || cut_short_) || first != inside_ || !last)) {
     throw refuse("a frame that was cut off does not end as aborted");
   }
   if (valid && !aborts && first != current_.empty()) {
     throw refuse("tuser is not on the first word");
   }
-  if (valid && expected_.empty()) {
+  if (valid && !inside_ && expected_.empty()) {
     throw refuse("a word although no frame has begun");
   }
-  if (valid && !aborts && last != (current_.size() + 1 == expected_.front().words)) {
+  if (valid && !aborts && last != (current_.size() + 1 == expected_.front().beats)) {
     throw refuse("tlast is not on the last word");
   }
   held_ = valid && *ports_.result_ready == 0;
@@ -84,14 +102,20 @@ void ResultSink::observe() {
   held_last_ = last;
   if (aborts && !held_) {
     ++aborted_;
+    current_.push_back(word);
+    aborted_words_ = std::move(current_);
+    if (!inside_) {
+      expected_.pop_front();
+    }
     cut_ = false;
+    inside_ = false;
     current_.clear();
-    expected_.pop_front();
   } else if (valid && !held_) {
     current_.push_back(word);
     if (last) {
       frames_.push_back(std::move(current_));
       numbers_.push_back(expected_.front().number);
+      short_words_.push_back(expected_.front().short_words);
       current_.clear();
       expected_.pop_front();
     }
@@ -99,7 +123,13 @@ void ResultSink::observe() {
 }
 
 void ResultSink::cut() {
+  if (inside_ && held_) {  // the beat that ends a frame stays
+    expected_.clear();
+    return;
+  }
   const bool ends = held_ && held_last_;  // with the word that is offered
+  cut_short_ = !expected_.empty() && expected_.front().short_words;
+  inside_ = cut_short_ && !held_ && current_.empty();
   cut_ = (cut_ || !ends) && (held_ || !current_.empty());
   while (expected_.size() > (cut_ || ends ? 1U : 0U)) {
     expected_.pop_back();

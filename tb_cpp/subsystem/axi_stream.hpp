@@ -62,21 +62,30 @@ class ResultSink {
   [[nodiscard]] const std::vector<std::uint64_t>& current() const { return current_; }
   /// Number of frames that ended with the word for an abort.
   [[nodiscard]] std::size_t aborted() const { return aborted_; }
+  /// Words of the last frame that ended so, with its last one.
+  [[nodiscard]] const std::vector<std::uint64_t>& aborted_words() const { return aborted_words_; }
   /// True if no word is offered or expected.
   [[nodiscard]] bool idle() const { return expected_.empty() && !held_; }
   /// For each received frame, its number among the expected frames; frames that were cut off without a word
   /// are missing.
   [[nodiscard]] const std::vector<std::size_t>& numbers() const { return numbers_; }
-  /// Expects a frame of `words` words after those already expected.
-  void expect_frame(std::size_t words) { expected_.push_back({begun_++, words}); }
+  /// Expects a frame of `words` words after those already expected; with `short_words`, of so many short
+  /// words, two in each beat.
+  void expect_frame(std::size_t words, bool short_words) {
+    expected_.push_back({begun_++, short_words ? (words + 1) / 2 : words, short_words});
+  }
+  /// For each received frame, whether it came in short words.
+  [[nodiscard]] const std::vector<bool>& short_words() const { return short_words_; }
   void reset() {
     current_.clear();
     expected_.clear();
     held_ = false;
     cut_ = false;
+    inside_ = false;
   }
   /// Cuts off the expected frames after this clock. An offered word stays; a frame whose first words were
-  /// sent then ends with the word for an abort.
+  /// sent then ends with the word for an abort. A frame of short words whose first beat was not sent may end
+  /// with one beat: its first short word and the one for an abort.
   void cut();
 
   void drive();
@@ -87,18 +96,23 @@ class ResultSink {
   SubsystemModel::Ports ports_;
   struct Expected {
     std::size_t number;
-    std::size_t words;
+    std::size_t beats;
+    bool short_words;
   };
 
   std::deque<Expected> expected_;  // frames to come
   std::size_t begun_ = 0;
   std::vector<std::size_t> numbers_;
+  std::vector<bool> short_words_;
   CounterRandom random_;
   std::vector<std::vector<std::uint64_t>> frames_;
   std::vector<std::uint64_t> current_;
   std::size_t aborted_ = 0;
-  bool cut_ = false;   // the next word, behind one that is held, ends the frame as aborted
-  bool held_ = false;  // a word was offered and not taken
+  std::vector<std::uint64_t> aborted_words_;
+  bool cut_ = false;        // the next word, behind one that is held, ends the frame as aborted
+  bool cut_short_ = false;  // it is a frame of short words
+  bool inside_ = false;     // a frame was cut whose first short word may be in the subsystem, without a beat
+  bool held_ = false;       // a word was offered and not taken
   std::uint64_t held_word_ = 0;
   bool held_first_ = false;
   bool held_last_ = false;

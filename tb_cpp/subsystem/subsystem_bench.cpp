@@ -47,6 +47,7 @@ SubsystemBench::SubsystemBench(const CompiledSubsystem& subsystem, std::uint64_t
   const std::uint32_t readout = get(DTOF_READOUT);
   clock_waits_ = (readout & DTOF_READOUT_CLOCK_WAITS_MASK) != 0;
   source_waits_ = (readout & DTOF_READOUT_SOURCE_WAITS_MASK) != 0;
+  raster_order_ = (readout & DTOF_READOUT_RASTER_ORDER_MASK) != 0;
   reference_.set_waits(clock_waits_, source_waits_);
   written_.release = most_release();
   committed_ = written_;
@@ -161,6 +162,7 @@ BusResponse SubsystemBench::write(std::uint32_t offset, std::uint32_t data, std:
     written_.second =
         configuration_.parameters.pool.second_target && (data & DTOF_OUTPUT_SECOND_TARGET_MASK) != 0;
     written_.raw = configuration_.raw_histogram && (data & DTOF_OUTPUT_RAW_MASK) != 0;
+    written_.short_words = (data & DTOF_OUTPUT_SHORT_WORDS_MASK) != 0;
   }
   if (offset == DTOF_RAW_ROWS && strobe == RegisterBus::kAllBytes) {
     written_.raw_rows = data;
@@ -219,7 +221,7 @@ void SubsystemBench::begin_frame() {
   reference_.set_release(committed_.release);
   reference_.begin();
   if (!frames_.back().self_test) {
-    sink_.expect_frame(words());
+    sink_.expect_frame(words(), committed_.short_words && !committed_.raw);
   }
 }
 

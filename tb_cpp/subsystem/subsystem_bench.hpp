@@ -65,6 +65,7 @@ class SubsystemBench {
   /// source_waits: false if the source cannot wait and loses whole acquisitions.
   [[nodiscard]] bool clock_waits() const { return clock_waits_; }
   [[nodiscard]] bool source_waits() const { return source_waits_; }
+  [[nodiscard]] bool raster_order() const { return raster_order_; }
   /// Clocks in which the array waited for a line inside an acquisition, and (below) number of dropped
   /// acquisitions.
   [[nodiscard]] std::uint64_t rests() const { return rests_; }
@@ -106,6 +107,7 @@ class SubsystemBench {
     std::size_t release = 0;
     bool second = false;
     bool raw = false;
+    bool short_words = false;
     std::uint32_t raw_rows = 0;
     std::uint32_t acquisitions = 0;
     std::uint32_t settle = 0;
@@ -129,6 +131,7 @@ class SubsystemBench {
   std::size_t buffer_lines_ = 0;
   bool clock_waits_ = false;
   bool source_waits_ = true;
+  bool raster_order_ = false;
   std::uint64_t rests_ = 0;
   std::uint64_t dropped_ = 0;
   Settings written_;

@@ -120,7 +120,8 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
             }(),
         .second_target = device_.has_second_target && frame % 2 == 0,
         .smooth = frame % 4 < 2,
-        .prior = device_.has_prior && frame % 4 != 2};
+        .prior = device_.has_prior && frame % 4 != 2,
+        .short_words = frame % 3 == 1};
     dtof_settings chosen = dtof_default_settings(&device_, settings.acquisitions);
     chosen.gate_begin = static_cast<std::uint16_t>(settings.gate.begin);
     chosen.gate_end = static_cast<std::uint16_t>(settings.gate.end);
@@ -128,6 +129,7 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
     chosen.second_target = settings.second_target;
     chosen.smooth = settings.smooth;
     chosen.prior = settings.prior;
+    chosen.short_words = settings.short_words;
     if (device_.has_schedule && frame % 2 == 0) {
       chosen_template = random_template(random);
       ASSERT_EQ(dtof_set_template(&device_, chosen_template.data()), DTOF_OK);
@@ -164,8 +166,9 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
     EXPECT_EQ(dtof_check_frame(&device_, damaged.data(), damaged.size(), &checked), DTOF_CORRUPT);
     EXPECT_EQ(dtof_check_frame(&device_, words.data() + 1, words.size() - 1, &checked), DTOF_CORRUPT);
     EXPECT_EQ(dtof_check_frame(&device_, words.data(), words.size() - 1, &checked), DTOF_CORRUPT);
-    std::vector<dtof_result> results(words.size());
-    ASSERT_EQ(dtof_unpack_frame(&device_, words.data(), words.size(), results.data()), DTOF_OK);
+    std::vector<dtof_result> results(columns * static_cast<std::size_t>(configuration.pixels_per_sram));
+    const auto unpack = settings.short_words ? dtof_unpack_short_frame : dtof_unpack_frame;
+    ASSERT_EQ(unpack(&device_, words.data(), words.size(), results.data()), DTOF_OK);
     for (const ResultFields& expected : expected_results(bench_, settings, lines, &priors)) {
       const dtof_result& of_pixel = results[static_cast<std::size_t>(expected.row) * columns +
                                             static_cast<std::size_t>(expected.column)];
@@ -189,6 +192,17 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
                   1000.0 * scale.depth(position), 1e-6);
     }
   }
+}
+
+TEST_P(Driver, KnowsTheOrderOfTheStream) {
+  std::size_t index = 0;
+  std::uint16_t row = 0;
+  std::uint16_t column = 0;
+  for (const ResultAddress& pixel : stream_order(bench_)) {
+    ASSERT_EQ(dtof_pixel_at(&device_, index++, &row, &column), DTOF_OK);
+    ASSERT_EQ(std::pair(int{row}, int{column}), std::pair(pixel.row, pixel.column)) << "index " << index - 1;
+  }
+  EXPECT_EQ(dtof_pixel_at(&device_, index, &row, &column), DTOF_ARGUMENT);
 }
 
 TEST_P(Driver, ReadsRawHistograms) {
@@ -600,6 +614,69 @@ TEST(DriverAlone, TakesASecondTargetOfEveryPixelOrOfNone) {
   EXPECT_TRUE(refused([](auto& changed) { std::swap(changed[0], changed[1]); })) << "no first before it";
   EXPECT_TRUE(refused([](auto& changed) { std::swap(changed[1], changed[3]); })) << "another pixel's";
   EXPECT_TRUE(refused([](auto& changed) { changed[1] = changed[0]; })) << "no second";
+}
+
+TEST(DriverAlone, KnowsTheOrderOfEngines) {
+  for (const auto& [rows, columns, of_engine] :
+       {std::array{3, 7, 3}, std::array{2, 6, 3}, std::array{4, 2, 5}, std::array{1, 1, 34},
+        std::array{160, 200, 34}}) {
+    RtlConfiguration configuration;
+    configuration.parameters.readout = Readout::kPoolPointer;
+    configuration.parameters.pool.engine_columns = of_engine;
+    configuration.pixels_per_sram = rows;
+    configuration.sram_num = columns;
+    dtof_device device{};
+    device.has_schedule = true;
+    device.rows = static_cast<std::uint16_t>(rows);
+    device.columns = static_cast<std::uint16_t>(columns);
+    device.engine_columns = static_cast<std::uint16_t>(of_engine);
+    std::size_t index = 0;
+    for (const ResultAddress& pixel : configuration.result_order()) {
+      std::uint16_t row = 0;
+      std::uint16_t column = 0;
+      ASSERT_EQ(dtof_pixel_at(&device, index++, &row, &column), DTOF_OK);
+      ASSERT_EQ(std::pair(int{row}, int{column}), std::pair(pixel.row, pixel.column));
+    }
+  }
+}
+
+TEST(DriverAlone, TakesShortFramesThatAreWhole) {
+  dtof_device device{};
+  const auto result = [](std::uint64_t position) { return DTOF_SHORT_RESULT_VALID_MASK | position; };
+  const std::uint64_t second = DTOF_SHORT_RESULT_SECOND_MASK;
+  const std::uint64_t aborted = DTOF_SHORT_RESULT_ABORTED_MASK;
+  std::vector<dtof_result> results(3);
+  const auto unpack = [&](const std::vector<std::uint64_t>& words) {
+    return dtof_unpack_short_frame(&device, words.data(), words.size(), results.data());
+  };
+  device.columns = 3;
+  device.rows = 1;
+  ASSERT_EQ(unpack({result(10) | result(11) << 32U, result(12)}), DTOF_OK);
+  EXPECT_EQ(results[1].position, 11);
+  EXPECT_EQ(results[2].column, 2);
+  EXPECT_FALSE(results[2].has_second);
+  EXPECT_EQ(unpack({}), DTOF_STREAM);
+  EXPECT_EQ(unpack({result(10) | result(11) << 32U}), DTOF_STREAM) << "half a frame";
+  EXPECT_EQ(unpack({result(10) | result(11) << 32U, result(12) | result(13) << 32U}), DTOF_STREAM)
+      << "a result too many";
+  EXPECT_EQ(unpack({result(10), result(12)}), DTOF_STREAM) << "a padding in the middle";
+  EXPECT_EQ(unpack({result(10) | result(11) << 32U, result(12) | second}), DTOF_STREAM);
+  EXPECT_EQ(unpack({result(10) | result(11) << 32U, aborted}), DTOF_ABORTED);
+  EXPECT_EQ(unpack({result(10) | aborted << 32U}), DTOF_ABORTED);
+  ASSERT_EQ(unpack({result(10) | (second | result(20)) << 32U, result(11) | (second | result(21)) << 32U,
+                    result(12) | (second | result(22)) << 32U}),
+            DTOF_OK);
+  EXPECT_EQ(results[2].position, 12);
+  EXPECT_TRUE(results[2].has_second);
+  EXPECT_EQ(results[2].second_position, 22);
+  EXPECT_EQ(unpack({result(10) | (second | result(20)) << 32U, result(11) | result(12) << 32U}), DTOF_STREAM);
+  device.columns = 1;
+  EXPECT_EQ(unpack({result(10)}), DTOF_OK);
+  EXPECT_FALSE(results[0].has_second);
+  EXPECT_EQ(unpack({result(10) | (second | result(20)) << 32U}), DTOF_OK);
+  EXPECT_TRUE(results[0].has_second);
+  std::uint32_t frame = 0;
+  EXPECT_EQ(dtof_check_frame(&device, &aborted, 1, &frame), DTOF_ABORTED);
 }
 
 TEST(DriverAlone, ATableOfOnePointIsThatDistance) {

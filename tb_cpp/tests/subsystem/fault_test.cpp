@@ -300,6 +300,7 @@ TEST_P(StreamFaults, AnAbortEndsAFrameInAnyClock) {
     FrameSettings settings = everything_counts(2);
     settings.second_target = pick(random, 2) == 0;
     settings.prior = pick(random, 2) == 0;
+    settings.short_words = pick(random, 2) == 0;
     write_settings(bench_, settings);
     push(beats_of(bright_lines(bench_.configuration(), 4, random)));
     bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.5;
@@ -558,6 +559,7 @@ TEST_P(StreamFaults, AreOverWithTheNextGoodFrame) {
     settings.raw_last = pick(random, configuration.pixels_per_sram);
     settings.prior = pick(random, 2) == 0;
     settings.settle = pick(random, 2) == 0 ? 0 : static_cast<std::uint32_t>(1 + pick(random, 4));
+    settings.short_words = pick(random, 2) == 0;
     write_settings(bench_, settings);
     bench_.set(DTOF_RELEASE, pick(random, 2) == 0 ? static_cast<std::uint32_t>(most_release_)
                                                   : 1 + random() % static_cast<std::uint32_t>(most_release_));

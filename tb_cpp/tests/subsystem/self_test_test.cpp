@@ -354,7 +354,7 @@ TEST_P(SelfTest, EndsWithAnAbortWithoutAVerdict) {
 TEST_P(SelfTest, DoesNotMeetTheWatchdogOrContinuousModeOrALateSink) {
   ASSERT_NO_FATAL_FAILURE(configure(5));
   bench_.set(DTOF_WATCHDOG, 2);
-  bench_.set(DTOF_RELEASE, 1);  // the earliest shots, if there were any
+  bench_.set(DTOF_RELEASE, 1);   // the earliest shots, if there were any
   bench_.sink().blocked = true;  // as at power-up: nobody takes words
   const std::uint32_t signature = self_test_signature(configuration(), raster(), 5, 77);
   bench_.set(DTOF_SELF_TEST_SEED, 77);

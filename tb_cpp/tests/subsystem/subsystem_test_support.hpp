@@ -61,6 +61,23 @@ inline ResultFields fields_of(std::uint64_t word) {
           .raw = (word & DTOF_RESULT_RAW_MASK) != 0};
 }
 
+/// Largest confidence of a short word, to which larger ones are clipped.
+inline constexpr int kLargestShortConfidence =
+    static_cast<int>(DTOF_SHORT_RESULT_CONFIDENCE_MASK >> DTOF_SHORT_RESULT_CONFIDENCE_LSB);
+
+/// Fields of a short word, without row and column.
+inline ResultFields fields_of_short(std::uint32_t word) {
+  const auto field = [&](std::uint32_t mask, int lsb) { return static_cast<int>((word & mask) >> lsb); };
+  return {.position = field(DTOF_SHORT_RESULT_POSITION_MASK, DTOF_SHORT_RESULT_POSITION_LSB),
+          .confidence = field(DTOF_SHORT_RESULT_CONFIDENCE_MASK, DTOF_SHORT_RESULT_CONFIDENCE_LSB),
+          .valid = (word & DTOF_SHORT_RESULT_VALID_MASK) != 0,
+          .weak = (word & DTOF_SHORT_RESULT_WEAK_MASK) != 0,
+          .empty = (word & DTOF_SHORT_RESULT_EMPTY_MASK) != 0,
+          .masked = (word & DTOF_SHORT_RESULT_MASKED_MASK) != 0,
+          .saturated = (word & DTOF_SHORT_RESULT_SATURATED_MASK) != 0,
+          .second = (word & DTOF_SHORT_RESULT_SECOND_MASK) != 0};
+}
+
 /// Values of a frame's registers. Settings that the configuration lacks have no effect.
 struct FrameSettings {
   std::uint32_t acquisitions = 0;
@@ -71,6 +88,7 @@ struct FrameSettings {
   bool raw = false;            ///< likewise
   bool smooth = true;          ///< likewise
   bool prior = false;          ///< likewise
+  bool short_words = false;    ///< without effect on a raw frame
   int raw_first = 0;
   int raw_last = 0;
   PoolTemplate coarse_template{};  ///< without effect where there is none
@@ -83,7 +101,7 @@ struct FrameSettings {
 /// Bits of OUTPUT that the configuration has.
 inline std::uint32_t existing_outputs(const RtlConfiguration& configuration) {
   const ReadoutParameters& parameters = configuration.parameters;
-  return (parameters.pool.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
+  return DTOF_OUTPUT_SHORT_WORDS_MASK | (parameters.pool.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
          (parameters.pool.prior ? DTOF_OUTPUT_PRIOR_MASK : 0) |
          (configuration.raw_histogram ? DTOF_OUTPUT_RAW_MASK : 0) |
          (is_pool_readout(parameters.readout) ? DTOF_OUTPUT_SMOOTH_MASK : 0);
@@ -103,13 +121,12 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
                              static_cast<std::uint32_t>(settings.gate.end) << DTOF_GATE_END_LSB);
   }
   bench.set(DTOF_WEAK_BELOW, settings.weak_below);
-  const std::uint32_t outputs = existing_outputs(configuration);
-  if (outputs != 0) {
-    bench.set(DTOF_OUTPUT, outputs & ((settings.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
-                                      (settings.raw ? DTOF_OUTPUT_RAW_MASK : 0) |
-                                      (settings.smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0) |
-                                      (settings.prior ? DTOF_OUTPUT_PRIOR_MASK : 0)));
-  }
+  bench.set(DTOF_OUTPUT,
+            existing_outputs(configuration) &
+                ((settings.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
+                 (settings.raw ? DTOF_OUTPUT_RAW_MASK : 0) | (settings.smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0) |
+                 (settings.prior ? DTOF_OUTPUT_PRIOR_MASK : 0) |
+                 (settings.short_words ? DTOF_OUTPUT_SHORT_WORDS_MASK : 0)));
   if (configuration.raw_histogram) {
     bench.set(DTOF_RAW_ROWS, static_cast<std::uint32_t>(settings.raw_first) << DTOF_RAW_ROWS_FIRST_LSB |
                                  static_cast<std::uint32_t>(settings.raw_last) << DTOF_RAW_ROWS_LAST_LSB);
@@ -226,6 +243,8 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
     fields.masked = !settings.enabled.empty() && !settings.enabled[column];
     fields.saturated = counts && result.confidence == largest_confidence;
     fields.valid = !fields.weak && !fields.empty && !fields.masked;
+    fields.confidence =
+        settings.short_words ? std::min(fields.confidence, kLargestShortConfidence) : fields.confidence;
     expected.push_back(fields);
     if (settings.second_target && parameters.pool.second_target) {
       fields.position = result.second;
@@ -233,7 +252,7 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
       expected.push_back(fields);
     }
   }
-  if ((bench.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0) {
+  if (bench.raster_order()) {
     std::ranges::sort(expected, {}, [](const ResultFields& fields) {
       return std::tuple(fields.row, fields.column, fields.second);
     });
@@ -241,9 +260,44 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
   return expected;
 }
 
-inline std::vector<ResultFields> received_results(const SubsystemBench& bench, std::size_t frame) {
+/// Rows and columns of a frame's results in the order of the stream.
+inline std::vector<ResultAddress> stream_order(const SubsystemBench& bench) {
+  std::vector<ResultAddress> order = bench.configuration().result_order();
+  if (bench.raster_order()) {
+    std::ranges::sort(order, {},
+                      [](const ResultAddress& pixel) { return std::pair(pixel.row, pixel.column); });
+  }
+  return order;
+}
+
+/// Results of a frame of short words; their order gives row and column. Of a padding, or a result too many,
+/// row and column are -1.
+inline std::vector<ResultFields> short_results(const SubsystemBench& bench,
+                                               const std::vector<std::uint64_t>& beats) {
   std::vector<ResultFields> received;
-  for (const std::uint64_t word : bench.sink().frames().at(frame)) {
+  for (const std::uint64_t& beat : beats) {
+    received.push_back(fields_of_short(static_cast<std::uint32_t>(beat)));
+    if (&beat != &beats.back() || beat >> 32U != 0) {
+      received.push_back(fields_of_short(static_cast<std::uint32_t>(beat >> 32U)));
+    }
+  }
+  const std::vector<ResultAddress> order = stream_order(bench);
+  std::size_t pixel = 0;
+  for (std::size_t i = 0; i < received.size(); ++i) {
+    pixel += i > 0 && !received[i].second ? 1 : 0;
+    received[i].row = pixel < order.size() ? order[pixel].row : -1;
+    received[i].column = pixel < order.size() ? order[pixel].column : -1;
+  }
+  return received;
+}
+
+inline std::vector<ResultFields> received_results(const SubsystemBench& bench, std::size_t frame) {
+  const std::vector<std::uint64_t>& words = bench.sink().frames().at(frame);
+  if (bench.sink().short_words().at(frame)) {
+    return short_results(bench, words);
+  }
+  std::vector<ResultFields> received;
+  for (const std::uint64_t word : words) {
     received.push_back(fields_of(word));
   }
   return received;
