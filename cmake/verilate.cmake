@@ -12,7 +12,7 @@
 #                 [TRACK_SHARE n]
 #                 [WRITABLE_SRAMS] [WAVEFORM] TARGET <library>)
 #
-# and, with SUBSYSTEM [CLOCK_WAITS 0|1] [SOURCE_WAITS 0|1] [BUFFER_LINES n] [RASTER_ORDER 0|1] [AXI_LITE 0|1] instead of PROBE and what follows it, dtof_subsystem around either,
+# and, with SUBSYSTEM [CLOCK_WAITS 0|1] [SOURCE_WAITS 0|1] [BUFFER_LINES n] [RASTER_ORDER 0|1] [SELF_TEST 0|1] [AXI_LITE 0|1] instead of PROBE and what follows it, dtof_subsystem around either,
 #
 # adds the model to the object library <library> made by dtof_rtl_models(<library> ...). A program that links it
 # finds the configuration in the registry of rtl/registry.hpp. Left-out parameters take
@@ -93,7 +93,7 @@ function(dtof_rtl_models library)
 endfunction()
 
 function(dtof_verilate name)
-  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;WAVEFORM;SUBSYSTEM" "READOUT;TARGET;CLOCK_WAITS;SOURCE_WAITS;BUFFER_LINES;RASTER_ORDER;AXI_LITE;PARITY;${DTOF_PARAMETERS}" ""
+  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;WAVEFORM;SUBSYSTEM" "READOUT;TARGET;CLOCK_WAITS;SOURCE_WAITS;BUFFER_LINES;RASTER_ORDER;AXI_LITE;PARITY;SELF_TEST;${DTOF_PARAMETERS}" ""
     ${ARGN})
   if(P_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown ${P_UNPARSED_ARGUMENTS}")
@@ -110,7 +110,7 @@ function(dtof_verilate name)
     set(top subsystem_testbench)
     set(top_parameters ${DTOF_PARAMETERS_dtof_array} ${DTOF_PARAMETERS_dtof_pool_pointer_array} COARSE_SHARE TRACK_SHARE)
     set(overrides -GREADOUT=${DTOF_SUBSYSTEM_NUMBER_${P_READOUT}})
-    foreach(parameter CLOCK_WAITS SOURCE_WAITS BUFFER_LINES RASTER_ORDER AXI_LITE PARITY)
+    foreach(parameter CLOCK_WAITS SOURCE_WAITS BUFFER_LINES RASTER_ORDER AXI_LITE PARITY SELF_TEST)
       if(DEFINED P_${parameter})
         list(APPEND overrides -G${parameter}=${P_${parameter}})
       endif()

@@ -69,6 +69,7 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
   device->has_second_target = FIELD(values[READOUT], DTOF_READOUT_SECOND_TARGET) != 0;
   device->has_prior = FIELD(values[READOUT], DTOF_READOUT_PRIOR) != 0;
   device->has_parity = FIELD(values[READOUT], DTOF_READOUT_PARITY) != 0;
+  device->has_self_test = FIELD(values[READOUT], DTOF_READOUT_SELF_TEST) != 0;
   device->clock_waits = FIELD(values[READOUT], DTOF_READOUT_CLOCK_WAITS) != 0;
   device->source_waits = FIELD(values[READOUT], DTOF_READOUT_SOURCE_WAITS) != 0;
   device->columns = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_COLUMNS);
@@ -271,6 +272,39 @@ dtof_status dtof_recover(const dtof_device *device) {
   dtof_status status = dtof_abort(device, true);
   for (size_t i = 0; status == DTOF_OK && i < sizeof sticky / sizeof sticky[0]; ++i) {
     status = write_register(device, sticky[i], UINT32_MAX);
+  }
+  return status;
+}
+
+dtof_status dtof_self_test(const dtof_device *device, uint32_t seed, uint32_t expected, uint32_t most_reads) {
+  uint32_t state = DTOF_STATUS_BUSY_MASK;
+  uint32_t errors = 0;
+  bool busy = false;
+  if (!device->has_self_test) {
+    return DTOF_ARGUMENT;
+  }
+  dtof_status status = dtof_busy(device, &busy);
+  if (status != DTOF_OK || busy) {
+    return status != DTOF_OK ? status : DTOF_BUSY;
+  }
+  struct {
+    uint32_t offset;
+    uint32_t value;
+  } writes[] = {{DTOF_SELF_TEST_SEED, seed},
+                {DTOF_SELF_TEST_EXPECTED, expected},
+                {DTOF_ERROR, DTOF_ERROR_SELF_TEST_MASK},
+                {DTOF_CONTROL, DTOF_CONTROL_SELF_TEST_MASK}};
+  for (size_t i = 0; status == DTOF_OK && i < sizeof writes / sizeof writes[0]; ++i) {
+    status = write_register(device, writes[i].offset, writes[i].value);
+  }
+  for (uint32_t i = 0; status == DTOF_OK && FIELD(state, DTOF_STATUS_BUSY) != 0; ++i) {
+    status = i < most_reads ? read_register(device, DTOF_STATUS, &state) : DTOF_BUSY;
+  }
+  if (status == DTOF_OK && FIELD(state, DTOF_STATUS_PASSED) == 0) {
+    status = read_register(device, DTOF_ERROR, &errors);
+    if (status == DTOF_OK) {
+      status = FIELD(errors, DTOF_ERROR_SELF_TEST) != 0 ? DTOF_FAILED : DTOF_BUSY;
+    }
   }
   return status;
 }

@@ -26,7 +26,8 @@ typedef enum {
   DTOF_BUSY = -5,            /* a frame is under way */
   DTOF_STREAM = -6,          /* the words do not fit the array or the order of the stream */
   DTOF_ABORTED = -7,         /* the frame was aborted: its words end here */
-  DTOF_CORRUPT = -8          /* the words are not those that were sent */
+  DTOF_CORRUPT = -8,         /* the words are not those that were sent */
+  DTOF_FAILED = -9           /* the hardware has failed its self-test */
 } dtof_status;
 
 /* The caller's functions that access a register. They return false if the access failed. `offset` is in
@@ -54,7 +55,8 @@ typedef struct {
   bool has_second_target;
   bool has_prior;
   bool has_raw_histogram;
-  bool has_parity;   /* of the words in the subsystem's own memories */
+  bool has_parity; /* of the words in the subsystem's own memories */
+  bool has_self_test;
   bool clock_waits;  /* the array waits for a line that is late inside an acquisition */
   bool source_waits; /* false: acquisitions for which there is no room are dropped */
   uint32_t raw_bins; /* bins of a raw histogram; 0 if has_raw_histogram is false */
@@ -202,6 +204,15 @@ dtof_status dtof_abort(const dtof_device *device, bool source_stopped);
 /* Recovers from any fault. Stop the source before this call. Calls dtof_abort, and clears errors, warnings
  * and interrupts. The settings stay. */
 dtof_status dtof_recover(const dtof_device *device);
+
+/* Runs the hardware's self-test with the settings and columns that were written last, and commits them. No
+ * source and no sink are needed; lines of the source wait meanwhile. `seed` and `expected`, the checksum that
+ * the models compute for these settings, are written to the device. The function reads STATUS until the
+ * self-test ends, at most `most_reads` times. DTOF_OK if the self-test has passed, DTOF_FAILED if it has
+ * failed, DTOF_ARGUMENT for a device without has_self_test. DTOF_BUSY if a frame or the self-test is under
+ * way after the last read, or if there is no verdict: the sink has not taken all words, the settings are
+ * illegal, or the self-test was aborted. ERROR.SELF_TEST is cleared before, and stays after a failure. */
+dtof_status dtof_self_test(const dtof_device *device, uint32_t seed, uint32_t expected, uint32_t most_reads);
 
 /* Reads the state of the device. */
 dtof_status dtof_read_state(const dtof_device *device, dtof_state *state);

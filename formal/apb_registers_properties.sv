@@ -16,6 +16,7 @@ module apb_registers_properties #(
     parameter int PRIOR = 1,
     parameter int RAW_HISTOGRAM = 1,
     parameter int PARITY = 0,
+    parameter int SELF_TEST = 1,
     parameter int CLOCK_WAITS = 1,
     parameter int SOURCE_WAITS = 0,
     parameter int WINDOW_CENTRED = 1,
@@ -43,6 +44,8 @@ module apb_registers_properties #(
     input logic [31:0] lost_acquisitions_i,
     input logic [15:0] shot_state_i,
     input logic [31:0] parity_errors_i,
+    input logic        self_test_busy_i,
+    input logic        self_test_passed_i,
     input logic        frame_i,
     input logic        underrun_i,
     input logic        start_ignored_i,
@@ -54,6 +57,7 @@ module apb_registers_properties #(
     input logic        stalled_i,
     input logic        flush_ignored_i,
     input logic        parity_error_i,
+    input logic        self_test_failed_i,
     input logic        aborted_i,
     input logic        counter_full_i
 );
@@ -67,8 +71,8 @@ module apb_registers_properties #(
 
   localparam int MOST_RELEASE = 5;
 
-  logic pready, pslverr, start, flush, abort, continuous, reseed, second, raw, smooth, prior, short_words, irq;
-  logic [31:0] prdata;
+  logic pready, pslverr, start, self_test, flush, abort, continuous, reseed, second, raw, smooth, prior, short_words, irq;
+  logic [31:0] prdata, test_seed, test_expected;
   logic [23:0] watchdog;
   logic [15:0] seed, release_lines, weak_below, settle;
   logic [11:0] raw_first, raw_last;
@@ -85,6 +89,7 @@ module apb_registers_properties #(
       .TIME_GATE       (TIME_GATE),
       .RASTER_ORDER    (RASTER_ORDER),
       .PARITY          (PARITY),
+      .SELF_TEST       (SELF_TEST),
       .CLOCK_WAITS     (CLOCK_WAITS),
       .SOURCE_WAITS    (SOURCE_WAITS),
       .SECOND_TARGET   (SECOND_TARGET),
@@ -128,12 +133,15 @@ module apb_registers_properties #(
       .prdata_o           (prdata),
       .pslverr_o          (pslverr),
       .start_o            (start),
+      .self_test_o        (self_test),
       .flush_o            (flush),
       .abort_o            (abort),
       .continuous_o       (continuous),
       .watchdog_o         (watchdog),
       .shot_seed_o        (seed),
       .shot_reseed_o      (reseed),
+      .self_test_seed_o   (test_seed),
+      .self_test_expected_o(test_expected),
       .second_o           (second),
       .raw_o              (raw),
       .raw_first_o        (raw_first),
@@ -163,6 +171,8 @@ module apb_registers_properties #(
       .lost_acquisitions_i(lost_acquisitions_i),
       .shot_state_i       (shot_state_i),
       .parity_errors_i    (parity_errors_i),
+      .self_test_busy_i   (self_test_busy_i),
+      .self_test_passed_i (self_test_passed_i),
       .frame_i            (frame_i),
       .underrun_i         (underrun_i),
       .start_ignored_i    (start_ignored_i),
@@ -174,6 +184,7 @@ module apb_registers_properties #(
       .stalled_i          (stalled_i),
       .flush_ignored_i    (flush_ignored_i),
       .parity_error_i     (parity_error_i),
+      .self_test_failed_i (self_test_failed_i),
       .aborted_i          (aborted_i),
       .counter_full_i     (counter_full_i),
       .irq_o              (irq)
@@ -208,6 +219,7 @@ module apb_registers_properties #(
       dtof_registers_pkg::RAW_ROWS: if (RAW_HISTOGRAM != 0) kept_bits = 32'h0fff0fff;
       dtof_registers_pkg::SHOT: kept_bits = 32'h0000ff07;
       dtof_registers_pkg::SHOT_SEED, dtof_registers_pkg::SETTLE: kept_bits = 32'h0000ffff;
+      dtof_registers_pkg::SELF_TEST_SEED, dtof_registers_pkg::SELF_TEST_EXPECTED: if (SELF_TEST != 0) kept_bits = 32'hffffffff;
       default:
       if (is_template(offset)) begin
         if (HAS_SCHEDULE != 0) kept_bits = 32'hffffffff;
@@ -219,7 +231,7 @@ module apb_registers_properties #(
 
   // Bits of which a 1 is a command.
   function automatic logic [31:0] command_bits(input logic [11:0] offset);
-    command_bits = (offset == dtof_registers_pkg::CONTROL) ? 32'hd : (offset == dtof_registers_pkg::COMMIT) ? 32'h1 : '0;
+    command_bits = (offset == dtof_registers_pkg::CONTROL) ? ((SELF_TEST != 0) ? 32'h1d : 32'hd) : (offset == dtof_registers_pkg::COMMIT) ? 32'h1 : '0;
   endfunction
 
   function automatic logic is_sticky(input logic [11:0] offset);
@@ -236,6 +248,7 @@ module apb_registers_properties #(
       dtof_registers_pkg::OUTPUT: reset_value = (HAS_SCHEDULE != 0) ? 32'h4 : 32'h0;
       dtof_registers_pkg::SHOT: reset_value = 32'h100;
       dtof_registers_pkg::SHOT_SEED: reset_value = 32'h1;
+      dtof_registers_pkg::SELF_TEST_SEED: reset_value = (SELF_TEST != 0) ? 32'h1 : 32'h0;
       default: if (is_enable(offset)) reset_value = kept_bits(offset);
     endcase
   endfunction
@@ -249,13 +262,13 @@ module apb_registers_properties #(
   assign access = rst_n && psel_i && penable_i;
   assign bytes = {{8{pstrb_i[3]}}, {8{pstrb_i[2]}}, {8{pstrb_i[1]}}, {8{pstrb_i[0]}}};
   assign ones = pwdata_i & bytes;
-  assign exists = (offset <= 12'h030) || (offset >= 12'h040 && offset <= 12'h144);
+  assign exists = (offset <= 12'h030) || (offset >= 12'h040 && offset <= 12'h14c);
 
   logic [31:0] may;  // bits that may be written as 1
   assign may = (is_template(offset) && busy_i) ? '0 : kept_bits(offset) | command_bits(offset);
   assign legal = exists && (!pwrite_i || is_sticky(offset) || (may != '0 && (ones & ~may) == '0));
   assign writes = access && pwrite_i && legal;
-  assign starts = writes && offset == dtof_registers_pkg::CONTROL && ones[0];
+  assign starts = writes && offset == dtof_registers_pkg::CONTROL && (ones[0] || ones[4]);
   assign commits = starts || (writes && offset == dtof_registers_pkg::COMMIT && ones[0]);
 
   // The watched register: what was written last, and what the last commit made valid.
@@ -283,12 +296,12 @@ module apb_registers_properties #(
   end
 
   // Sticky bits and commands.
-  logic [8:0] error_events, error_q;
+  logic [9:0] error_events, error_q;
   logic [3:0] warning_events, warning_q;
   logic [1:0] causes, cause_q, cause_enable_q;
-  logic start_q, flush_q, abort_q, reseed_q;
+  logic start_q, self_test_q, flush_q, abort_q, reseed_q;
 
-  assign error_events = {parity_error_i, flush_ignored_i, stalled_i, timeout_i, short_i || long_i, overrun_i, illegal_schedule_i,
+  assign error_events = {self_test_failed_i, parity_error_i, flush_ignored_i, stalled_i, timeout_i, short_i || long_i, overrun_i, illegal_schedule_i,
                          start_ignored_i, underrun_i};
   assign warning_events = {long_i, short_i, aborted_i, counter_full_i};
   assign causes = {error_events != '0, frame_i};
@@ -299,13 +312,14 @@ module apb_registers_properties #(
       warning_q <= '0;
       cause_q <= '0;
       cause_enable_q <= '0;
-      {start_q, flush_q, abort_q, reseed_q} <= '0;
+      {start_q, self_test_q, flush_q, abort_q, reseed_q} <= '0;
     end else begin
-      error_q <= error_events | ((writes && offset == dtof_registers_pkg::ERROR) ? error_q & ~ones[8:0] : error_q);
+      error_q <= error_events | ((writes && offset == dtof_registers_pkg::ERROR) ? error_q & ~ones[9:0] : error_q);
       warning_q <= warning_events | ((writes && offset == dtof_registers_pkg::WARNING) ? warning_q & ~ones[3:0] : warning_q);
       cause_q <= causes | ((writes && offset == dtof_registers_pkg::IRQ_STATUS) ? cause_q & ~ones[1:0] : cause_q);
       if (writes && offset == dtof_registers_pkg::IRQ_ENABLE && pstrb_i[0]) cause_enable_q <= pwdata_i[1:0];
       start_q <= starts;
+      self_test_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[4];
       flush_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[2];
       abort_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[3];
       reseed_q <= writes && offset == dtof_registers_pkg::SHOT_SEED && (pstrb_i[0] || pstrb_i[1]);
@@ -322,7 +336,7 @@ module apb_registers_properties #(
       dtof_registers_pkg::ID: fixed = "DOFP";
       dtof_registers_pkg::VERSION: fixed = dtof_registers_pkg::VERSION_VALUE;
       dtof_registers_pkg::READOUT:
-      fixed = {15'd0, SOURCE_WAITS != 0, CLOCK_WAITS != 0, PARITY != 0, PRIOR != 0, RAW_HISTOGRAM != 0, SECOND_TARGET != 0,
+      fixed = {14'd0, SELF_TEST != 0, SOURCE_WAITS != 0, CLOCK_WAITS != 0, PARITY != 0, PRIOR != 0, RAW_HISTOGRAM != 0, SECOND_TARGET != 0,
                RASTER_ORDER != 0, TIME_GATE != 0, HAS_SCHEDULE != 0, 8'd3};
       dtof_registers_pkg::SIZE: fixed = {16'd70, 16'(SRAM_NUM)};
       dtof_registers_pkg::WIDTHS: fixed = {8'(ACQ_WIDTH), 8'(CONFIDENCE_WIDTH), 8'd6, 8'(NP)};
@@ -334,7 +348,7 @@ module apb_registers_properties #(
       dtof_registers_pkg::POOL: if (HAS_SCHEDULE != 0) fixed = {4'd10, 4'd1, 4'd8, 4'd7, 4'd6, 4'd5, 8'd4};
       dtof_registers_pkg::ENGINES: if (HAS_SCHEDULE != 0) fixed = {15'd0, RIVAL_MOVES != 0, 16'd34};
       dtof_registers_pkg::SHARES: if (HAS_SCHEDULE != 0) fixed = {16'd0, 8'd20, 8'd14};
-      dtof_registers_pkg::STATUS: fixed = {level_i, 9'd0, state_i, 3'd0, busy_i};
+      dtof_registers_pkg::STATUS: fixed = {level_i, 6'd0, self_test_passed_i, self_test_busy_i, 1'b0, state_i, 3'd0, busy_i};
       dtof_registers_pkg::ERROR: fixed = 32'(error_q);
       dtof_registers_pkg::IRQ_STATUS: fixed = 32'(cause_q);
       dtof_registers_pkg::FRAME_COUNT: fixed = frame_count_i;
@@ -361,6 +375,8 @@ module apb_registers_properties #(
       dtof_registers_pkg::CONTROL: {at_once, shown[1]} = {1'b1, continuous};
       dtof_registers_pkg::WATCHDOG: {at_once, shown[23:0]} = {1'b1, watchdog};
       dtof_registers_pkg::SHOT_SEED: {at_once, shown[15:0]} = {1'b1, seed};
+      dtof_registers_pkg::SELF_TEST_SEED: {at_once, shown} = {1'b1, test_seed};
+      dtof_registers_pkg::SELF_TEST_EXPECTED: {at_once, shown} = {1'b1, test_expected};
       dtof_registers_pkg::ACQUISITIONS: shown = 32'(acquisitions);
       dtof_registers_pkg::COARSE_END: shown = 32'(coarse_end);
       dtof_registers_pkg::TRACK_END: shown = 32'(track_end);
@@ -402,7 +418,7 @@ module apb_registers_properties #(
   `PROVE(a_read_stored, !(access && !pwrite_i && exists && !is_fixed && offset == watched) || prdata == stored_q)
   `PROVE(a_at_once, !(rst_n && has_output && at_once) || shown == stored_q)
   `PROVE(a_committed, !(rst_n && has_output && !at_once && committed_once_q) || shown == committed_q)
-  `PROVE(a_commands, !rst_n || {start, flush, abort, reseed} == {start_q, flush_q, abort_q, reseed_q})
+  `PROVE(a_commands, !rst_n || {start, self_test, flush, abort, reseed} == {start_q, self_test_q, flush_q, abort_q, reseed_q})
   `PROVE(a_irq, !rst_n || irq == ((cause_q & cause_enable_q) != '0))
   `GOAL(rst_n && committed_once_q && watched == dtof_registers_pkg::ACQUISITIONS && committed_q != stored_q && committed_q != '0
         && error_q[3:0] == 4'b1010 && cause_q[1] && irq && access && !pwrite_i && offset == watched)

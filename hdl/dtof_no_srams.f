@@ -66,6 +66,7 @@ subsystem/dtof_line_buffer.sv
 subsystem/dtof_watchdog.sv
 subsystem/dtof_saturating_counter.sv
 subsystem/dtof_settle.sv
+subsystem/dtof_self_test.sv
 subsystem/dtof_shot_dither.sv
 subsystem/dtof_frame_crc.sv
 subsystem/dtof_array_reset.sv

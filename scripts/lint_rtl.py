@@ -120,9 +120,9 @@ def check_soc() -> list[str]:
 
 def check_subsystem(readout: int) -> list[str]:
     """Reads the subsystem around a read-out with all options and, for one read-out, with as few as possible."""
-    smallest = {"PIXELS_PER_SRAM": 1, "SRAM_NUM": 1, "BUFFER_LINES": 2, "CONFIDENCE_WIDTH": 0}
+    smallest = {"PIXELS_PER_SRAM": 1, "SRAM_NUM": 1, "BUFFER_LINES": 2, "CONFIDENCE_WIDTH": 0, "SELF_TEST": 1}
     others = [smallest, {"CLOCK_WAITS": 0}, {"SOURCE_WAITS": 0}, {"SOURCE_WAITS": 0, "BUFFER_LINES": 9}]
-    chosen = [SIZE[SUBSYSTEM] | {"TIME_GATE": 1, "RASTER_ORDER": 1},
+    chosen = [SIZE[SUBSYSTEM] | {"TIME_GATE": 1, "RASTER_ORDER": 1, "SELF_TEST": 1},
               *([SIZE[SUBSYSTEM] | other for other in others] if readout == 0 else [])]
     return [failure for settings in chosen
             for failure in check_read(f"{SUBSYSTEM} of READOUT {readout}", SUBSYSTEM, {"READOUT": readout} | settings)]

@@ -4,8 +4,8 @@
 // A transfer takes the two clocks of APB, without wait states. pslverr_o reports an access to an offset without a register, a write to a
 // register without a writable bit in this configuration, and a write of 1 to a bit of a setting or command that this configuration
 // does not have. Such an access writes nothing. pstrb_i selects bytes; there is no pprot.
-// Settings become valid together, with COMMIT or START. CONTROL, IRQ_ENABLE, WATCHDOG and SHOT_SEED are valid at once. If software
-// clears a bit in the clock of a new event, the bit stays set.
+// Settings become valid together, with COMMIT, START or a self-test. CONTROL, IRQ_ENABLE, WATCHDOG, SHOT_SEED, SELF_TEST_SEED and
+// SELF_TEST_EXPECTED are valid at once. If software clears a bit in the clock of a new event, the bit stays set.
 // Schedule: clock 0 is APB's setup, clock 1 its access: a write takes effect at the end of clock 1; prdata_o is combinational.
 // Latency: a command is a pulse in the clock after its write; a committed setting is at its output in the clock after the commit.
 // Cost: two flip-flops per bit of a setting, SRAM_NUM such bits for the columns, and the read multiplexer.
@@ -20,6 +20,7 @@ module dtof_apb_registers #(
     parameter int TIME_GATE = 0,
     parameter int RASTER_ORDER = 0,
     parameter int PARITY = 0,
+    parameter int SELF_TEST = 0,
     parameter int CLOCK_WAITS = 1,
     parameter int SOURCE_WAITS = 1,
     parameter int SECOND_TARGET = 0,
@@ -67,12 +68,15 @@ module dtof_apb_registers #(
     output logic                 pslverr_o,
     // commands and settings
     output logic                 start_o,
+    output logic                 self_test_o,    // with start_o: the frame is a self-test; 0 without SELF_TEST
     output logic                 flush_o,
     output logic                 abort_o,
     output logic                 continuous_o,
     output logic [         23:0] watchdog_o,
     output logic [         15:0] shot_seed_o,
     output logic                 shot_reseed_o,  // in the clock after a write of SHOT_SEED
+    output logic [         31:0] self_test_seed_o,      // self_test_seed_o and self_test_expected_o are 0 without SELF_TEST
+    output logic [         31:0] self_test_expected_o,
     // committed settings
     output logic                 second_o,       // 0 without SECOND_TARGET
     output logic                 raw_o,          // raw_o, raw_first_o and raw_last_o are 0 without RAW_HISTOGRAM
@@ -104,6 +108,8 @@ module dtof_apb_registers #(
     input  logic [         31:0] lost_acquisitions_i,
     input  logic [         15:0] shot_state_i,
     input  logic [         31:0] parity_errors_i,
+    input  logic                 self_test_busy_i,
+    input  logic                 self_test_passed_i,
     // events
     input  logic                 frame_i,
     input  logic                 underrun_i,
@@ -116,19 +122,20 @@ module dtof_apb_registers #(
     input  logic                 stalled_i,
     input  logic                 flush_ignored_i,
     input  logic                 parity_error_i,
+    input  logic                 self_test_failed_i,
     input  logic                 aborted_i,
     input  logic                 counter_full_i,
     output logic                 irq_o
 );
 
-  localparam int ERRORS = 9;
+  localparam int ERRORS = 10;
   localparam int WARNINGS = 4;
   localparam int CAUSES = 2;  // causes of an interrupt
   localparam int WEAK_WIDTH = dtof_pkg::min_of(CONFIDENCE_WIDTH + 1, 16);
 
   // A write takes effect in the transfer's second clock.
 
-  logic access, known, writable, write, commit;
+  logic access, known, writable, write, starts, commit;
   logic [11:0] offset;
   logic [31:0] mask;     // bits that pstrb_i selects
   logic [31:0] written;  // selected bits that are written as 1
@@ -144,8 +151,9 @@ module dtof_apb_registers #(
   assign pslverr_o = access && (pwrite_i ? !writable : !known);
 
   assign written = pwdata_i & mask;
-  assign commit = write && ((offset == dtof_registers_pkg::COMMIT && written[dtof_registers_pkg::COMMIT_SETTINGS_LSB])
-      || (offset == dtof_registers_pkg::CONTROL && written[dtof_registers_pkg::CONTROL_START_LSB]));
+  assign starts = write && (offset == dtof_registers_pkg::CONTROL)
+      && (written[dtof_registers_pkg::CONTROL_START_LSB] || written[dtof_registers_pkg::CONTROL_SELF_TEST_LSB]);
+  assign commit = starts || (write && offset == dtof_registers_pkg::COMMIT && written[dtof_registers_pkg::COMMIT_SETTINGS_LSB]);
 
   logic unused_address;
   assign unused_address = ^paddr_i[1:0];
@@ -179,6 +187,7 @@ module dtof_apb_registers #(
     error_event[dtof_registers_pkg::ERROR_STALLED_LSB] = stalled_i;
     error_event[dtof_registers_pkg::ERROR_FLUSH_IGNORED_LSB] = flush_ignored_i;
     error_event[dtof_registers_pkg::ERROR_PARITY_LSB] = parity_error_i;
+    error_event[dtof_registers_pkg::ERROR_SELF_TEST_LSB] = self_test_failed_i;
     warning_event = '0;
     warning_event[dtof_registers_pkg::WARNING_COUNTER_FULL_LSB] = counter_full_i;
     warning_event[dtof_registers_pkg::WARNING_ABORTED_LSB] = aborted_i;
@@ -215,7 +224,7 @@ module dtof_apb_registers #(
       settle_q <= '0;
       short_words_q <= 1'b0;
     end else begin
-      start_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_START_LSB];
+      start_q <= starts;
       flush_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_FLUSH_LSB];
       abort_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_ABORT_LSB];
       shot_reseed_q <= write && (offset == dtof_registers_pkg::SHOT_SEED) && (pstrb_i[1:0] != '0);
@@ -326,6 +335,33 @@ module dtof_apb_registers #(
     end else begin : g_no_gate
       assign gate_begin = '0;
       assign gate_end = '0;
+    end
+
+    if (SELF_TEST != 0) begin : g_self_test
+      logic self_test_q;
+      logic [31:0] seed_q, expected_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          self_test_q <= 1'b0;
+          seed_q <= 32'd1;
+          expected_q <= '0;
+        end else begin
+          self_test_q <= starts && written[dtof_registers_pkg::CONTROL_SELF_TEST_LSB];
+          if (write && offset == dtof_registers_pkg::SELF_TEST_SEED) begin
+            seed_q <= (seed_q & ~mask) | written;
+          end
+          if (write && offset == dtof_registers_pkg::SELF_TEST_EXPECTED) begin
+            expected_q <= (expected_q & ~mask) | written;
+          end
+        end
+      end
+      assign self_test_o = self_test_q;
+      assign self_test_seed_o = seed_q;
+      assign self_test_expected_o = expected_q;
+    end else begin : g_no_self_test
+      assign self_test_o = 1'b0;
+      assign self_test_seed_o = '0;
+      assign self_test_expected_o = '0;
     end
 
     if (SECOND_TARGET != 0) begin : g_second_target
@@ -479,7 +515,8 @@ module dtof_apb_registers #(
   localparam logic [31:0] SHOT_FIELDS = (32'h7 << dtof_registers_pkg::SHOT_BITS_LSB) | (32'hff << dtof_registers_pkg::SHOT_UNIT_LSB);
   localparam logic [31:0] CONTROL_BITS = (32'd1 << dtof_registers_pkg::CONTROL_START_LSB)
       | (32'd1 << dtof_registers_pkg::CONTROL_CONTINUOUS_LSB) | (32'd1 << dtof_registers_pkg::CONTROL_FLUSH_LSB)
-      | (32'd1 << dtof_registers_pkg::CONTROL_ABORT_LSB);
+      | (32'd1 << dtof_registers_pkg::CONTROL_ABORT_LSB)
+      | (((SELF_TEST != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::CONTROL_SELF_TEST_LSB);
   localparam logic [31:0] OUTPUT_BITS =
       (((SECOND_TARGET != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB)
       | (((RAW_HISTOGRAM != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_RAW_LSB)
@@ -506,6 +543,7 @@ module dtof_apb_registers #(
       dtof_registers_pkg::SHOT: there = SHOT_FIELDS;
       dtof_registers_pkg::SHOT_SEED: there = 32'h0000ffff;
       dtof_registers_pkg::SETTLE: there = 32'h0000ffff;
+      dtof_registers_pkg::SELF_TEST_SEED, dtof_registers_pkg::SELF_TEST_EXPECTED: there = (SELF_TEST != 0) ? 32'hffffffff : '0;
       dtof_registers_pkg::COMMIT: there = 32'd1 << dtof_registers_pkg::COMMIT_SETTINGS_LSB;
       default:
       if (is_template) begin
@@ -532,6 +570,7 @@ module dtof_apb_registers #(
         prdata_o[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
         prdata_o[dtof_registers_pkg::READOUT_PRIOR_LSB] = (PRIOR != 0);
         prdata_o[dtof_registers_pkg::READOUT_PARITY_LSB] = (PARITY != 0);
+        prdata_o[dtof_registers_pkg::READOUT_SELF_TEST_LSB] = (SELF_TEST != 0);
         prdata_o[dtof_registers_pkg::READOUT_CLOCK_WAITS_LSB] = (CLOCK_WAITS != 0);
         prdata_o[dtof_registers_pkg::READOUT_SOURCE_WAITS_LSB] = (SOURCE_WAITS != 0);
         prdata_o[dtof_registers_pkg::READOUT_RAW_HISTOGRAM_LSB] = (RAW_HISTOGRAM != 0);
@@ -585,6 +624,8 @@ module dtof_apb_registers #(
       dtof_registers_pkg::STATUS: begin
         prdata_o[dtof_registers_pkg::STATUS_BUSY_LSB] = busy_i;
         prdata_o[dtof_registers_pkg::STATUS_STATE_LSB+:3] = state_i;
+        prdata_o[dtof_registers_pkg::STATUS_SELF_TEST_LSB] = self_test_busy_i;
+        prdata_o[dtof_registers_pkg::STATUS_PASSED_LSB] = self_test_passed_i;
         prdata_o[dtof_registers_pkg::STATUS_LEVEL_LSB+:16] = level_i;
       end
       dtof_registers_pkg::ERROR: prdata_o = 32'(error_q);
@@ -604,6 +645,8 @@ module dtof_apb_registers #(
       end
       dtof_registers_pkg::SHOT_SEED: prdata_o = 32'(shot_seed_q);
       dtof_registers_pkg::SETTLE: prdata_o = 32'(settle_q);
+      dtof_registers_pkg::SELF_TEST_SEED: prdata_o = self_test_seed_o;
+      dtof_registers_pkg::SELF_TEST_EXPECTED: prdata_o = self_test_expected_o;
       dtof_registers_pkg::PARITY_ERRORS: prdata_o = parity_errors_i;
       dtof_registers_pkg::SHOT_STATE: prdata_o = 32'(shot_state_i);
       dtof_registers_pkg::ACQUISITIONS: prdata_o = 32'(acquisitions_q);

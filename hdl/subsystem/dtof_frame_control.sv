@@ -27,7 +27,7 @@ module dtof_frame_control #(
     input  logic                 rst_ni,
     input  logic                 start_i,
     input  logic                 abort_i,
-    input  logic                 resetting_i,         // the array's reset after abort_i is not over yet
+    input  logic                 resetting_i,         // the array's reset after abort_i, or a self-test's comparison, is not over yet
     input  logic                 continuous_i,
     input  logic [ACQ_WIDTH-1:0] acquisitions_i,
     input  logic [ACQ_WIDTH-1:0] coarse_end_i,

@@ -48,6 +48,8 @@ package dtof_registers_pkg;
   localparam int READOUT_CLOCK_WAITS_WIDTH = 1;
   localparam int READOUT_SOURCE_WAITS_LSB = 16;
   localparam int READOUT_SOURCE_WAITS_WIDTH = 1;
+  localparam int READOUT_SELF_TEST_LSB = 17;
+  localparam int READOUT_SELF_TEST_WIDTH = 1;
 
   // size of the array
   localparam logic [11:0] SIZE = 12'h00c;
@@ -152,6 +154,8 @@ package dtof_registers_pkg;
   localparam int CONTROL_FLUSH_WIDTH = 1;
   localparam int CONTROL_ABORT_LSB = 3;
   localparam int CONTROL_ABORT_WIDTH = 1;
+  localparam int CONTROL_SELF_TEST_LSB = 4;
+  localparam int CONTROL_SELF_TEST_WIDTH = 1;
 
   // state of the subsystem
   localparam logic [11:0] STATUS = 12'h044;
@@ -160,6 +164,10 @@ package dtof_registers_pkg;
   localparam int STATUS_BUSY_WIDTH = 1;
   localparam int STATUS_STATE_LSB = 4;
   localparam int STATUS_STATE_WIDTH = 3;
+  localparam int STATUS_SELF_TEST_LSB = 8;
+  localparam int STATUS_SELF_TEST_WIDTH = 1;
+  localparam int STATUS_PASSED_LSB = 9;
+  localparam int STATUS_PASSED_WIDTH = 1;
   localparam int STATUS_LEVEL_LSB = 16;
   localparam int STATUS_LEVEL_WIDTH = 16;
 
@@ -184,6 +192,8 @@ package dtof_registers_pkg;
   localparam int ERROR_FLUSH_IGNORED_WIDTH = 1;
   localparam int ERROR_PARITY_LSB = 8;
   localparam int ERROR_PARITY_WIDTH = 1;
+  localparam int ERROR_SELF_TEST_LSB = 9;
+  localparam int ERROR_SELF_TEST_WIDTH = 1;
 
   // enables causes of `irq_o`; valid at once
   localparam logic [11:0] IRQ_ENABLE = 12'h04c;
@@ -336,7 +346,7 @@ package dtof_registers_pkg;
   localparam int SHOT_STATE_VALUE_LSB = 0;
   localparam int SHOT_STATE_VALUE_WIDTH = 16;
 
-  // checksum of the words of the last frame that FRAME_COUNT counts
+  // checksum of the words of the last frame that FRAME_COUNT counts, or of the last self-test
   localparam logic [11:0] FRAME_CRC = 12'h11c;
   localparam logic [31:0] FRAME_CRC_RESET = 32'h00000000;
   localparam int FRAME_CRC_VALUE_LSB = 0;
@@ -366,6 +376,18 @@ package dtof_registers_pkg;
   localparam logic [31:0] SETTLE_RESET = 32'h00000000;
   localparam int SETTLE_VALUE_LSB = 0;
   localparam int SETTLE_VALUE_WIDTH = 16;
+
+  // start of a self-test's pseudo-random timestamps; valid at once
+  localparam logic [11:0] SELF_TEST_SEED = 12'h148;
+  localparam logic [31:0] SELF_TEST_SEED_RESET = 32'h00000000;
+  localparam int SELF_TEST_SEED_VALUE_LSB = 0;
+  localparam int SELF_TEST_SEED_VALUE_WIDTH = 32;
+
+  // what a self-test's FRAME_CRC must be; valid at once
+  localparam logic [11:0] SELF_TEST_EXPECTED = 12'h14c;
+  localparam logic [31:0] SELF_TEST_EXPECTED_RESET = 32'h00000000;
+  localparam int SELF_TEST_EXPECTED_VALUE_LSB = 0;
+  localparam int SELF_TEST_EXPECTED_VALUE_WIDTH = 32;
 
   // A result.
   localparam int RESULT_WIDTH = 64;
@@ -417,7 +439,7 @@ package dtof_registers_pkg;
 
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h030)
-        || (offset >= 12'h040 && offset <= 12'h144);
+        || (offset >= 12'h040 && offset <= 12'h14c);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);
@@ -425,7 +447,7 @@ package dtof_registers_pkg;
         || (offset >= 12'h048 && offset <= 12'h050)
         || (offset >= 12'h05c && offset <= 12'h100)
         || (offset >= 12'h10c && offset <= 12'h114)
-        || (offset >= 12'h124 && offset <= 12'h144);
+        || (offset >= 12'h124 && offset <= 12'h14c);
   endfunction
 
 endpackage

@@ -20,6 +20,9 @@
 // 8. shot_o fires the laser and starts the TDCs, once for each acquisition that a frame needs. SHOT adds a pseudo-random delay
 //    (dtof_shot_dither). If the laser runs freely, leave shot_o unconnected.
 //
+// 9. With SELF_TEST = 1, CONTROL.SELF_TEST begins a self-test: a frame of pseudo-random lines, whose checksum the hardware compares
+//    (dtof_self_test). The source's lines wait, no shot is fired, and the words stay inside.
+//
 // READOUT selects the read-out: dtof_pkg::READOUT_*. READOUT_POOLPOINTER is dtof_pool_pointer_array, all others are dtof_array. The
 // parameters that follow are those of the arrays, with the default of the read-out.
 // Latency: one clock from a line to the array (two if the line buffer is an SRAM), one clock from the array to a result.
@@ -108,6 +111,7 @@ module dtof_subsystem #(
     parameter int BUFFER_LINES = (CLOCK_WAITS != 0) ? dtof_pkg::max_of(SLOTS, 2) : PIXELS_PER_SRAM * SLOTS + 4,
     parameter int RASTER_ORDER = 0,  // 1: a memory of all results sorts them by row and column
     parameter int PARITY = 0,        // 1: words of the subsystem's memories have parity bits; the array's memories have none
+    parameter int SELF_TEST = 0,     // 1: built-in self-test
     localparam int S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8),
     localparam int M_TDATA_WIDTH = dtof_registers_pkg::RESULT_WIDTH
 ) (
@@ -184,6 +188,7 @@ module dtof_subsystem #(
   `DTOF_REQUIRE(g_illegal_clock, CLOCK_WAITS == 0 || CLOCK_WAITS == 1, "dtof_subsystem: CLOCK_WAITS must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_source, SOURCE_WAITS == 0 || SOURCE_WAITS == 1, "dtof_subsystem: SOURCE_WAITS must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_parity, PARITY == 0 || PARITY == 1, "dtof_subsystem: PARITY must be 0 or 1")
+  `DTOF_REQUIRE(g_illegal_self_test, SELF_TEST == 0 || SELF_TEST == 1, "dtof_subsystem: SELF_TEST must be 0 or 1")
 
   // Registers and control of frames.
 
@@ -206,6 +211,9 @@ module dtof_subsystem #(
   logic [2:0] state;
   logic [LEVEL_WIDTH-1:0] level;
   logic [31:0] frame_count, frame_cycles, frame_crc;
+  // self_test comes with start; test_frame: the frame that began last is a self-test; words_left: the sink has not taken all words
+  logic self_test, test_chosen, test_refused, test_frame, test_busy, test_passed, test_failed, words_left;
+  logic [31:0] test_seed, test_expected;
 
   dtof_apb_registers #(
       .READOUT         (READOUT),
@@ -213,6 +221,7 @@ module dtof_subsystem #(
       .TIME_GATE       (TIME_GATE),
       .RASTER_ORDER    (RASTER_ORDER),
       .PARITY          (PARITY),
+      .SELF_TEST       (SELF_TEST),
       .CLOCK_WAITS     (CLOCK_WAITS),
       .SOURCE_WAITS    (SOURCE_WAITS),
       .SECOND_TARGET   (SECOND_TARGET),
@@ -257,12 +266,15 @@ module dtof_subsystem #(
       .prdata_o          (prdata_o),
       .pslverr_o         (pslverr_o),
       .start_o           (start),
+      .self_test_o       (self_test),
       .flush_o           (flush),
       .abort_o           (abort),
       .continuous_o      (continuous),
       .watchdog_o        (watchdog),
       .shot_seed_o       (shot_seed),
       .shot_reseed_o     (shot_reseed),
+      .self_test_seed_o    (test_seed),
+      .self_test_expected_o(test_expected),
       .second_o          (second),
       .raw_o             (raw),
       .raw_first_o       (raw_first),
@@ -292,9 +304,11 @@ module dtof_subsystem #(
       .lost_acquisitions_i(lost_acquisitions),
       .shot_state_i      (shot_state),
       .parity_errors_i   (parity_errors),
+      .self_test_busy_i  (test_busy),
+      .self_test_passed_i(test_passed),
       .frame_i           (frame),
       .underrun_i        (underrun),
-      .start_ignored_i   (start_ignored),
+      .start_ignored_i   (start_ignored || test_refused),
       .illegal_schedule_i(illegal_schedule),
       .overrun_i         (overrun),
       .short_i           (short_acquisition),
@@ -303,6 +317,7 @@ module dtof_subsystem #(
       .stalled_i         (stalled),
       .flush_ignored_i   (flush && !flushes),
       .parity_error_i    (line_parity_error || raster_parity_error),
+      .self_test_failed_i(test_failed),
       .aborted_i         (aborted),
       .counter_full_i    (counter_full),
       .irq_o             (irq_o)
@@ -317,10 +332,10 @@ module dtof_subsystem #(
   ) u_frame_control (
       .clk_i             (clk_i),
       .rst_ni            (rst_ni),
-      .start_i           (start),
+      .start_i           (start && !test_refused),
       .abort_i           (abort),
-      .resetting_i       (resetting),
-      .continuous_i      (continuous),
+      .resetting_i       (resetting || (test_busy && !running)),
+      .continuous_i      (continuous && !test_frame),
       .acquisitions_i    (acquisitions),
       .coarse_end_i      (coarse_end),
       .track_end_i       (track_end),
@@ -349,6 +364,10 @@ module dtof_subsystem #(
       .reset_o     (in_reset),
       .array_rst_no(array_rst_n)
   );
+
+  // A self-test begins when all words have left, so that the words behind its begin are its own.
+  assign test_refused = self_test && words_left;
+  assign test_chosen = self_test && !words_left && !busy;
 
   // Settings of the present frame; the array samples its own.
 
@@ -444,7 +463,7 @@ module dtof_subsystem #(
       .clk_i    (clk_i),
       .rst_ni   (rst_ni),
       .limit_i  (watchdog),
-      .waits_i  (starved && running && !kept),
+      .waits_i  (starved && running && !kept && !test_frame),
       .expired_o(expired)
   );
 
@@ -455,11 +474,11 @@ module dtof_subsystem #(
   logic [15:0] frame_settle;
   logic [NEED_WIDTH-1:0] needed;
 
-  assign frame_settle = (acquisitions == '0) ? '0 : settle;
-  assign needed = NEED_WIDTH'(acquisitions) + NEED_WIDTH'(frame_settle);
-  assign line_ready = tdc_ready || settle_takes;
+  assign frame_settle = (acquisitions == '0 || test_chosen) ? '0 : settle;
+  assign needed = test_chosen ? '0 : NEED_WIDTH'(acquisitions) + NEED_WIDTH'(frame_settle);
+  assign line_ready = (tdc_ready || settle_takes) && !test_frame;
   assign array_waits = line_waits && !drops;
-  assign array_valid = tdc_valid && !line_waits && !drops;
+  assign array_valid = test_frame ? running : tdc_valid && !line_waits && !drops;
 
   dtof_settle #(
       .WIDTH(16)
@@ -544,12 +563,51 @@ module dtof_subsystem #(
     end
   endgenerate
 
+  logic [SRAM_NUM*NP-1:0] array_line;
+  logic word_ends;
+
+  generate
+    if (SELF_TEST != 0) begin : g_self_test
+      logic [SRAM_NUM*NP-1:0] test_line;
+      dtof_self_test #(
+          .NP             (NP),
+          .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+          .SRAM_NUM       (SRAM_NUM),
+          .SLOTS          (SLOTS)
+      ) u_self_test (
+          .clk_i      (clk_i),
+          .rst_ni     (rst_ni),
+          .clear_i    (self_test),
+          .chosen_i   (test_chosen),
+          .begin_i    (begin_frame),
+          .abort_i    (abort),
+          .seed_i     (test_seed),
+          .expected_i (test_expected),
+          .take_i     (array_valid && tdc_ready),
+          .word_ends_i(word_ends),
+          .crc_i      (frame_crc),
+          .line_o     (test_line),
+          .frame_o    (test_frame),
+          .busy_o     (test_busy),
+          .passed_o   (test_passed),
+          .failed_o   (test_failed)
+      );
+      assign array_line = test_frame ? test_line : line;
+      `DTOF_ASSERT(a_source_rests, !test_frame || !running || (!line_waits && !drops), "lines of the source are inside a self-test")
+    end else begin : g_no_self_test
+      logic unused_self_test;
+      assign unused_self_test = ^{test_seed, test_expected, word_ends};
+      assign array_line = line;
+      assign {test_frame, test_busy, test_passed, test_failed} = '0;
+    end
+  endgenerate
+
   dtof_line_filter #(
       .NP       (NP),
       .SRAM_NUM (SRAM_NUM),
       .TIME_GATE(TIME_GATE)
   ) u_line_filter (
-      .line_i      (line),
+      .line_i      (array_line),
       .enable_i    (frame_enable_q),
       .gate_begin_i(frame_gate_begin_q),
       .gate_end_i  (frame_gate_end_q),
@@ -758,6 +816,12 @@ module dtof_subsystem #(
   // Words are stored for a slow sink at one place only, which keeps the rules of the stream when a frame is cut off: in u_stream_output, or in
   // raster order in u_raster_buffer.
   logic word_tvalid, word_tready, word_tuser, word_tlast, word_short, output_rst_n, output_cut, aborted_word;
+  logic out_tvalid, out_tready, out_taken;  // of the port, and of words of a self-test, which stay inside
+
+  assign m_axis_tvalid_o = out_tvalid && !test_frame;
+  assign out_tready = m_axis_tready_i || test_frame;
+  assign out_taken = out_tvalid && out_tready;
+  assign word_ends = out_taken && m_axis_tlast_o && !aborted_word;
   logic [M_TDATA_WIDTH-1:0] word_tdata;
   logic ordered_tvalid, ordered_tready, ordered_tuser, ordered_tlast, ordered_short;  // in the order in which the words leave
   logic [M_TDATA_WIDTH-1:0] ordered_tdata;
@@ -810,6 +874,7 @@ module dtof_subsystem #(
 
       assign output_rst_n = array_rst_n;
       assign output_cut = 1'b0;
+      assign words_left = word_tvalid || !word_tready;
 
       dtof_raster_buffer #(
           .SRAM_NUM       (SRAM_NUM),
@@ -874,6 +939,7 @@ module dtof_subsystem #(
       assign aborted_word = word_tdata[dtof_registers_pkg::RESULT_ABORTED_LSB];
       assign raster_cfg = '1;
       assign raster_parity_error = 1'b0;
+      assign words_left = word_tvalid;
       assign word_tready = ordered_tready;
       assign ordered_tvalid = word_tvalid;
       assign ordered_tdata = word_tdata;
@@ -892,8 +958,8 @@ module dtof_subsystem #(
       .s_tdata_i (ordered_tdata),
       .s_tuser_i (ordered_tuser),
       .s_tlast_i (ordered_tlast),
-      .m_tvalid_o(m_axis_tvalid_o),
-      .m_tready_i(m_axis_tready_i),
+      .m_tvalid_o(out_tvalid),
+      .m_tready_i(out_tready),
       .m_tdata_o (m_axis_tdata_o),
       .m_tuser_o (m_axis_tuser_o),
       .m_tlast_o (m_axis_tlast_o)
@@ -904,7 +970,7 @@ module dtof_subsystem #(
   ) u_frame_crc (
       .clk_i    (clk_i),
       .rst_ni   (rst_ni),
-      .taken_i  (m_axis_tvalid_o && m_axis_tready_i),
+      .taken_i  (out_taken),
       .word_i   (m_axis_tdata_o),
       .first_i  (m_axis_tuser_o),
       .last_i   (m_axis_tlast_o),
@@ -912,7 +978,7 @@ module dtof_subsystem #(
       .crc_o    (frame_crc)
   );
 
-  assign frame = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o && !aborted_word;
+  assign frame = word_ends && !test_frame;
   assign overrun = ((s_axis_tvalid_i && !s_axis_tready_o) || dropped) && m_axis_tvalid_o && !m_axis_tready_i;
 
 endmodule

@@ -200,6 +200,13 @@ Line SubsystemBench::array_line() const {
 
 void SubsystemBench::check_array_offer(bool here) const {
   const bool offered = *ports_.array_valid != 0;
+  if (*ports_.test_frame != 0) {
+    if (offered != (!frames_.empty() && frames_.back().self_test && *ports_.running != 0)) {
+      throw RtlError(
+          fmt::format("a self-test offers the array {}", offered ? "a line behind its end" : "nothing"));
+    }
+    return;
+  }
   if (offered != (here && settle_left_ == 0)) {
     throw RtlError(fmt::format("the array is offered {}, {} acquisitions are to be dropped",
                                offered ? "a line" : "nothing", settle_left_));
@@ -208,11 +215,26 @@ void SubsystemBench::check_array_offer(bool here) const {
 
 void SubsystemBench::begin_frame() {
   frames_.emplace_back();
+  frames_.back().self_test = *ports_.test_begin != 0;
   begin_cycle_ = cycle_;
-  settle_left_ = committed_.acquisitions > 0 ? committed_.settle : 0;
+  settle_left_ = committed_.acquisitions > 0 && !frames_.back().self_test ? committed_.settle : 0;
   reference_.set_release(committed_.release);
   reference_.begin();
-  sink_.expect_frame(words(), committed_.short_words && !committed_.raw);
+  if (!frames_.back().self_test) {
+    sink_.expect_frame(words(), committed_.short_words && !committed_.raw);
+  }
+}
+
+void SubsystemBench::observe_self_test() {
+  if (*ports_.test_frame != 0 && *ports_.result_valid != 0) {
+    throw RtlError("a word of a self-test leaves");
+  }
+  if (*ports_.test_take != 0) {
+    if (*ports_.array_line_ready != 0) {
+      throw RtlError("a self-test takes a line of the source");
+    }
+    frames_.back().lines.push_back(array_line());
+  }
 }
 
 void SubsystemBench::take_array_line() {
@@ -245,7 +267,9 @@ void SubsystemBench::observe_shot(ShotClock now) {
   now.gave_up = reference_.gave_up() && !now.abort;
   if (now.begin) {
     ShotReference::Settings settings = committed_.shot;
-    settings.acquisitions = committed_.acquisitions > 0 ? committed_.acquisitions + committed_.settle : 0;
+    settings.acquisitions = committed_.acquisitions > 0 && *ports_.test_begin == 0
+                                ? committed_.acquisitions + committed_.settle
+                                : 0;
     shot_reference_.set(settings);
   }
   shot_ = *ports_.shot != 0;
@@ -275,6 +299,7 @@ void SubsystemBench::observe_lines() {
   if (offered && ready && !rests) {
     take_array_line();
   }
+  observe_self_test();
   const bool refused = *ports_.line_valid != 0 && *ports_.line_ready == 0;
   const bool sink_refuses = *ports_.result_valid != 0 && *ports_.result_ready == 0;
   if (refused && !commanded && reference_.exact() && reference_.waiting() < buffer_lines_) {

@@ -23,6 +23,7 @@ struct ArrayFrame {
       lines;  ///< those of all acquisitions in order, before mask and gate, without dropped ones
   std::uint64_t cycles = 0;  ///< clocks from start to done, both included; 0 while the frame is under way
   std::uint32_t lost = 0;    ///< acquisitions in which the line buffer ran empty
+  bool self_test = false;    ///< lines come from the self-test's generator
   std::vector<std::uint64_t> shots;  ///< clocks in which shot_o was high, from the frame's start
 };
 
@@ -35,6 +36,7 @@ struct ArrayFrame {
 ///  - A line is refused only if the buffer is full or in the clock of a command, and never if the source
 ///    cannot wait. Only then an acquisition may be dropped, and only if the buffer is full.
 ///  - A shot is fired exactly when ShotReference says so.
+///  - In a self-test no line of the source reaches the array, and no word leaves.
 class SubsystemBench {
  public:
   /// `seed` determines everything random.
@@ -91,6 +93,7 @@ class SubsystemBench {
   void set(std::uint32_t offset, std::uint32_t data);
 
  private:
+  void observe_self_test();
   void run_transfer();
   void observe_lines();
   void take_array_line();

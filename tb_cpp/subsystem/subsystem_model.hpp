@@ -70,6 +70,10 @@ class SubsystemModel {
     const std::uint8_t* dropped;           ///< an acquisition was dropped for lack of room
     const std::uint8_t* array_line_valid;  ///< at the array's port
     const std::uint8_t* array_line_ready;
+    const std::uint8_t* test_begin;   ///< with `begin`: the frame is a self-test
+    const std::uint8_t* test_frame;   ///< the frame that began last is a self-test
+    const std::uint8_t* test_take;    ///< the array takes a line of the self-test
+    const std::uint8_t* running;      ///< a frame is under way
     const std::uint32_t* array_line;  ///< lines before mask and gate, in the format of line_data
   };
 

@@ -82,6 +82,7 @@ module subsystem_testbench #(
     parameter BUFFER_LINES = 0,  // 0: the subsystem's default
     parameter RASTER_ORDER = 0,
     parameter PARITY = 0,
+    parameter SELF_TEST = 0,
     localparam BUS_WIDTH = SRAM_NUM * NP > 512 ? SRAM_NUM * NP : 512
 ) (
     input  logic         clk_i,
@@ -136,6 +137,10 @@ module subsystem_testbench #(
     output logic         probe_dropped_o,
     output logic         probe_line_valid_o,
     output logic         probe_line_ready_o,
+    output logic         probe_test_begin_o,
+    output logic         probe_test_frame_o,
+    output logic         probe_test_take_o,
+    output logic         probe_running_o,
     output logic [BUS_WIDTH-1:0] probe_line_o
 );
 
@@ -202,6 +207,7 @@ module subsystem_testbench #(
       .BUFFER_LINES(LINES),
       .RASTER_ORDER(RASTER_ORDER),
       .PARITY(PARITY),
+      .SELF_TEST(SELF_TEST),
       // parameters of dtof_subsystem: written by scripts/generate.py from readouts.toml
       .NP(NP),
       .NB(NB),
@@ -275,7 +281,11 @@ module subsystem_testbench #(
   assign probe_dropped_o = u_subsystem.dropped;
   assign probe_line_valid_o = u_subsystem.tdc_valid;
   assign probe_line_ready_o = u_subsystem.line_ready;
-  assign probe_line_o = BUS_WIDTH'(u_subsystem.line);
+  assign probe_test_begin_o = u_subsystem.begin_frame && u_subsystem.test_chosen;
+  assign probe_test_frame_o = u_subsystem.test_frame;
+  assign probe_running_o = u_subsystem.running;
+  assign probe_test_take_o = u_subsystem.test_frame && u_subsystem.array_valid && u_subsystem.tdc_ready;
+  assign probe_line_o = BUS_WIDTH'(u_subsystem.array_line);
 
   // Every SRAM's side band: the stand-ins answer what they are told, which is another value in every frame.
   always_ff @(posedge clk_i) begin

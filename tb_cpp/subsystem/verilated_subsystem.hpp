@@ -69,6 +69,10 @@ class VerilatedSubsystem : public SubsystemModel {
             .dropped = &model_.probe_dropped_o,
             .array_line_valid = &model_.probe_line_valid_o,
             .array_line_ready = &model_.probe_line_ready_o,
+            .test_begin = &model_.probe_test_begin_o,
+            .test_frame = &model_.probe_test_frame_o,
+            .test_take = &model_.probe_test_take_o,
+            .running = &model_.probe_running_o,
             .array_line = model_.probe_line_o.data()};
   }
 

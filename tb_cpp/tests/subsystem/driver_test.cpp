@@ -51,6 +51,7 @@ TEST_P(Driver, FindsWhatIsThere) {
   EXPECT_EQ(device_.has_prior, configuration.parameters.pool.prior);
   EXPECT_EQ(device_.has_raw_histogram, configuration.raw_histogram);
   EXPECT_EQ(device_.has_parity, (bench_.get(DTOF_READOUT) & DTOF_READOUT_PARITY_MASK) != 0);
+  EXPECT_EQ(device_.has_self_test, (bench_.get(DTOF_READOUT) & DTOF_READOUT_SELF_TEST_MASK) != 0);
   EXPECT_EQ(device_.clock_waits, bench_.clock_waits());
   EXPECT_EQ(device_.source_waits, bench_.source_waits());
   EXPECT_EQ(device_.has_raster_order, (bench_.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0);
@@ -487,6 +488,8 @@ TEST(DriverAlone, TellsWhenTheBusFails) {
   EXPECT_EQ(dtof_frames(&device, &value, &value), DTOF_BUS);
   EXPECT_EQ(dtof_check_frame(&device, nullptr, 0, &value), DTOF_BUS);
   EXPECT_EQ(dtof_seed_shots(&device, 1), DTOF_BUS);
+  device.has_self_test = true;
+  EXPECT_EQ(dtof_self_test(&device, 1, 0, 1), DTOF_BUS);
   EXPECT_EQ(dtof_read_shot_state(&device, &value), DTOF_BUS);
   EXPECT_EQ(dtof_take_errors(&device, &value), DTOF_BUS);
   EXPECT_EQ(dtof_take_warnings(&device, &value), DTOF_BUS);

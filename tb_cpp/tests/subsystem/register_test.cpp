@@ -77,7 +77,7 @@ TEST_P(Subsystem, SaysWhatItIs) {
 }
 
 // Bits of a setting that the configuration has.
-std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offset) {
+std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offset, bool self_test) {
   const ReadoutParameters& parameters = configuration.parameters;
   const bool pool = is_pool_readout(parameters.readout);
   const auto codes = static_cast<std::uint32_t>(parameters.no_detection());
@@ -98,6 +98,9 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
   }
   if (offset == DTOF_SHOT_SEED) {
     return DTOF_SHOT_SEED_VALUE_MASK;
+  }
+  if (offset == DTOF_SELF_TEST_SEED || offset == DTOF_SELF_TEST_EXPECTED) {
+    return self_test ? 0xFFFFFFFFU : 0;
   }
   if (offset == DTOF_OUTPUT) {
     return existing_outputs(configuration);
@@ -124,9 +127,11 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
 
 TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
   CounterRandom random = this->random(1);
-  std::vector<std::uint32_t> offsets = {DTOF_IRQ_ENABLE, DTOF_ACQUISITIONS, DTOF_COARSE_END, DTOF_TRACK_END,
-                                        DTOF_GATE,       DTOF_RELEASE,      DTOF_OUTPUT,     DTOF_RAW_ROWS,
-                                        DTOF_WATCHDOG,   DTOF_SHOT,         DTOF_SHOT_SEED,  DTOF_SETTLE};
+  std::vector<std::uint32_t> offsets = {
+      DTOF_IRQ_ENABLE, DTOF_ACQUISITIONS, DTOF_COARSE_END,     DTOF_TRACK_END,         DTOF_GATE,
+      DTOF_RELEASE,    DTOF_OUTPUT,       DTOF_RAW_ROWS,       DTOF_WATCHDOG,          DTOF_SHOT,
+      DTOF_SHOT_SEED,  DTOF_SETTLE,       DTOF_SELF_TEST_SEED, DTOF_SELF_TEST_EXPECTED};
+  const bool self_test = (bench_.get(DTOF_READOUT) & DTOF_READOUT_SELF_TEST_MASK) != 0;
   for (std::uint32_t i = 0; i < DTOF_COLUMN_ENABLE_NUMBER; ++i) {
     offsets.push_back(DTOF_COLUMN_ENABLE + 4 * i);
   }
@@ -141,7 +146,7 @@ TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
   int refused = 0;
   for (int round = 0; round < 400; ++round) {
     const std::size_t i = random() % offsets.size();
-    const std::uint32_t there = existing(bench_.configuration(), offsets[i]);
+    const std::uint32_t there = existing(bench_.configuration(), offsets[i], self_test);
     const std::uint32_t data = round % 4 == 0 ? random() : random() & there;
     const auto strobe = static_cast<std::uint8_t>(random() % 16);
     std::uint32_t mask = 0;
@@ -186,7 +191,7 @@ TEST_P(Subsystem, ReadsBehindAResetWhatTheMapsSay) {
 }
 
 TEST_P(Subsystem, RefusesWhatIsNotThere) {
-  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x148U, 0x800U, 0xFFCU}) {
+  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x150U, 0x800U, 0xFFCU}) {
     EXPECT_TRUE(bench_.read(offset).error) << offset;
     EXPECT_TRUE(bench_.write(offset, 0).error) << offset;
   }
