@@ -481,7 +481,8 @@ TEST_P(StreamFaults, SettingsBecomeValidTogether) {
   EXPECT_EQ(bench_.get(DTOF_CONTROL), DTOF_CONTROL_CONTINUOUS_MASK);
 }
 
-// Rounds of the random test: the environment variable DTOF_STREAM_FAULT_ROUNDS, else as many as take seconds, and more in a long run.
+// Rounds of the random test: the environment variable DTOF_STREAM_FAULT_ROUNDS, else as many as take seconds,
+// and more in a long run.
 std::uint32_t fault_rounds() {
   if (const char* text = std::getenv("DTOF_STREAM_FAULT_ROUNDS")) {
     return static_cast<std::uint32_t>(std::stoul(text));
