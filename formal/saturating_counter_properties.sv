@@ -33,12 +33,17 @@ module saturating_counter_properties #(
       .count_o(count)
   );
 
+  logic [STEP_WIDTH-1:0] step_q;
   logic [15:0] sum_q;
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
+      step_q <= '0;
       sum_q <= '0;
-    end else if (sum_q < 16'd1000) begin
-      sum_q <= sum_q + 16'(step_i);
+    end else begin
+      step_q <= step_i;
+      if (sum_q < 16'd1000) begin
+        sum_q <= sum_q + 16'(step_q);
+      end
     end
   end
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts events since reset, several per clock, and stays at its largest value.
 //
-// Equation: count' = min(count + step, 2^WIDTH - 1). Latency: 1 clock.
-// Cost: a register and an adder of WIDTH bits.
+// Equation: count' = min(count + step, 2^WIDTH - 1).
+// Schedule: clock 0 the step arrives, clock 1 the step is registered, clock 2 the count is registered. Latency: 2 clocks.
+// Cost: WIDTH + STEP_WIDTH flip-flops, an adder of WIDTH bits.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -17,15 +18,18 @@ module dtof_saturating_counter #(
     output logic [     WIDTH-1:0] count_o
 );
 
+  logic [STEP_WIDTH-1:0] step_q;
   logic [WIDTH-1:0] count_q;
   logic [WIDTH:0] sum;
 
-  assign sum = {1'b0, count_q} + (WIDTH + 1)'(step_i);
+  assign sum = {1'b0, count_q} + (WIDTH + 1)'(step_q);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      step_q <= '0;
       count_q <= '0;
     end else begin
+      step_q <= step_i;
       count_q <= sum[WIDTH] ? {WIDTH{1'b1}} : sum[WIDTH-1:0];
     end
   end

@@ -6,8 +6,8 @@
 //    dropped acquisition does not stop the array's clock.
 // 2. abort_i ends the dropping at once; give_up_i (the source is dead) ends it after the last line of an acquisition that has begun.
 //
-// Latency: none; both outputs come from flip-flops.
-// Cost: 17 flip-flops, a decrementer of 16 bits.
+// Latency: none; drops_o comes from a flip-flop, takes_o from two flip-flops and a gate.
+// Cost: 18 flip-flops, a decrementer and a comparator of 16 bits.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -30,30 +30,37 @@ module dtof_settle #(
 );
 
   logic [WIDTH-1:0] left_q;  // acquisitions still to drop, including the one that is leaving
+  logic drops_q;             // left_q is not 0
   logic inside_q;            // an acquisition is leaving
 
-  assign drops_o = (left_q != '0);
-  assign takes_o = drops_o && inside_q;
+  assign drops_o = drops_q;
+  assign takes_o = drops_q && inside_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       left_q <= '0;
+      drops_q <= 1'b0;
       inside_q <= 1'b0;
     end else begin
       inside_q <= (first_i || inside_q) && !last_i && !abort_i;
       if (abort_i) begin
         left_q <= '0;
+        drops_q <= 1'b0;
       end else if (begin_i) begin
         left_q <= settle_i;
+        drops_q <= (settle_i != '0);
       end else if (give_up_i) begin
         left_q <= WIDTH'(takes_o);
-      end else if (drops_o && last_i) begin
+        drops_q <= takes_o;
+      end else if (drops_q && last_i) begin
         left_q <= left_q - 1'b1;
+        drops_q <= (left_q != WIDTH'(1));
       end
     end
   end
 
   `DTOF_ASSERT(a_begin_between, !begin_i || !inside_q, "a frame begins inside an acquisition")
+  `DTOF_ASSERT(a_drops_what_is_left, drops_q == (left_q != '0), "drops_o differs from the number of acquisitions that are left")
   `DTOF_ASSERT(a_give_up_waits, !give_up_i || !(first_i || last_i), "a line is taken in the clock in which the source is given up")
 
 endmodule
