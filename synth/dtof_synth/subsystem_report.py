@@ -14,6 +14,7 @@ from .subsystem import CORNERS, MODES, TOP, Subsystem
 LINE_BUFFER = "dtof_line_buffer"
 HOPELESS_NS = 0.4  # of synth/sta/resize.tcl
 OWN = "own cells"  # of dtof_subsystem, outside its modules
+TITLES = {TOP: "own registers and ports", "array_stand_in": "the array"}  # of what is no module of the subsystem
 
 
 def _table(header: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> list[str]:
@@ -45,7 +46,7 @@ def _answer(found: Sequence[Subsystem]) -> str:
     missed = [one.configuration.title for one in found if one.worst("margins") < 0]
     if not missed:
         return f"{size} It closes {found[0].target_mhz:g} MHz with margins around every array."
-    where = f" Setup is missed in {', '.join(f'`{name}`' for name in late)}; every other module meets it." if late else ""
+    where = f" Setup is missed in {', '.join(TITLES.get(name, f'`{name}`') for name in late)}; every other module meets it." if late else ""
     return f"{size} **It misses {found[0].target_mhz:g} MHz with margins around {', '.join(missed)}.**{where}"
 
 
@@ -78,8 +79,7 @@ def _slack_rows(found: Sequence[Subsystem]) -> list[list[str]]:
 
 def _late_rows(found: Sequence[Subsystem]) -> list[list[str]]:
     names = sorted({name for one in found for name in one.late}, key=lambda name: min(one.late.get(name, 9.0) for one in found))
-    titles = {TOP: "own registers and ports", "array_stand_in": "the array"}
-    return [[titles.get(name, f"`{name}`"), *(f"{one.late[name]:+.3f}" if name in one.late else "-" for one in found)] for name in names]
+    return [[TITLES.get(name, f"`{name}`"), *(f"{one.late[name]:+.3f}" if name in one.late else "-" for one in found)] for name in names]
 
 
 def _pessimism(found: Sequence[Subsystem]) -> str:
