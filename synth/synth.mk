@@ -11,7 +11,6 @@
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
 # make synth-flat      the slack with every column real beside that with stand-ins; CONFIGURATIONS= as above
 # make synth-corners   the slack if gates and SRAMs are slowed by one ratio; CONFIGURATIONS= as above
-# make synth-subsystem  dtof_subsystem around the arrays: reports/subsystem.md; CONFIGURATIONS= as above (table only)
 # make synth-test      the flow's own tests, and the porting example simulated
 # make sim-icarus      RTL of every configuration, small, in Icarus Verilog against the model
 # make sim-netlist     netlist of every configuration, small, beside its RTL; LIBERTY= and LIBERTY_SLOW= as above
