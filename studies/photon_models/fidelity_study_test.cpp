@@ -112,12 +112,12 @@ TEST(FidelityReport, StatementsFollowTheFigures) {
   const FidelitySettings settings = small_settings();
   const std::string good = fidelity_report(made_up(settings, 1e-6, 90.0), settings, "command");
   EXPECT_THAT(good, HasSubstr("hold for 2 of 2 read-outs"));
-  EXPECT_THAT(good, HasSubstr("cheaper than the exact streams for 2 of 2"));
-  EXPECT_THAT(good, HasSubstr("for streams the exact model is the cheaper one"));
+  EXPECT_THAT(good, HasSubstr("costs less than the exact streams for 2 of 2 read-outs"));
+  EXPECT_THAT(good, HasSubstr("For streams the exact model is therefore the cheaper one"));
   EXPECT_THAT(good, HasSubstr("No promise was broken."));
   const std::string bad = fidelity_report(made_up(settings, 0.5, 150.0), settings, "command");
   EXPECT_THAT(bad, HasSubstr("hold for 0 of 2 read-outs"));
-  EXPECT_THAT(bad, HasSubstr("for streams the fast model is the cheaper one"));
+  EXPECT_THAT(bad, HasSubstr("For streams the fast model is therefore the cheaper one"));
   EXPECT_THAT(bad, HasSubstr("cost 50 % more than"));
   EXPECT_THAT(bad, Not(HasSubstr("No promise was broken.")));
   EXPECT_THAT(bad, HasSubstr("promises were broken.**"));
