@@ -19,7 +19,6 @@
 //    s_axis_tlast_i, and a watchdog ends the wait for a dead source. CONTROL.ABORT ends a frame at any time.
 // 8. shot_o fires the laser and starts the TDCs, once for each acquisition that a frame needs. SHOT adds a pseudo-random delay
 //    (dtof_shot_dither). If the laser runs freely, leave shot_o unconnected.
-//
 // 9. With SELF_TEST = 1, CONTROL.SELF_TEST begins a self-test: a frame of pseudo-random lines, whose checksum the hardware compares
 //    (dtof_self_test). The source's lines wait, no shot is fired, and the words stay inside.
 //

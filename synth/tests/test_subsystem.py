@@ -75,6 +75,11 @@ class Faults(unittest.TestCase):
         path = timed.time("slow", "margins", "margins").output
         self.assertIn("-0.3000    2.5803   library recovery time", path)
 
+    def test_a_late_reset_of_the_array_is_no_late_setup(self) -> None:
+        late_reset = [Port("rst_ni", False, 2.5, 0.1, 2.0) if port.name == "rst_ni" else port for port in TIMES]
+        _, late = self.timed(design(), Ports({mode: late_reset for mode in MODES}, PORTS.constant, PORTS.unused)).ends()
+        self.assertGreater(late["array_stand_in"], 1.5)
+
     def test_a_port_without_a_budget_is_found(self) -> None:
         timed = self.timed(design())
         text = timed.constraints.read_text(encoding="utf-8").replace('ne "clk_i"', 'ni {clk_i d_i}')
@@ -189,6 +194,9 @@ class Report(unittest.TestCase):
         found = [around("ezpointer", setup=-0.4), around("poolpointer", setup=-0.5)]
         self.assertIn("so around poolPointer no gate is resized", subsystem_report.report(found, "0" * 64))
         self.assertNotIn("no gate is resized", subsystem_report.report(found[:1], "0" * 64))
+
+    def test_the_page_has_the_limit_of_the_flow(self) -> None:
+        self.assertIn(f"set HOPELESS_NS {subsystem_report.HOPELESS_NS}\n", (ROOT / "synth" / "sta" / "resize.tcl").read_text(encoding="utf-8"))
 
     def test_the_csv_has_a_line_for_each_array(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
