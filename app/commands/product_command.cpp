@@ -27,6 +27,7 @@ struct ProductOptions {
   std::uint32_t vector_acquisitions = 0;
   double frame_rate = 30.0;
   double clock_mhz = 330.0;
+  bool self_test = false;
   bool measure = false;
   std::string out;
   bool json = false;
@@ -62,6 +63,7 @@ void run_product_command(const ProductOptions& options, JsonResult& result) {
                          .klux = options.klux,
                          .seed = options.seed,
                          .vector_acquisitions = options.vector_acquisitions,
+                         .self_test = options.self_test,
                          .budget = {.clock_hz = options.clock_mhz * 1e6, .frames_per_s = options.frame_rate},
                          .command = command_of(options),
                          .measurements = {}};
@@ -105,6 +107,8 @@ void add_product_command(CLI::App& app, const std::string& command_line) {
       "--vector-acquisitions", options->vector_acquisitions,
       "acquisitions of the test vectors (default: as many of the sensor's as fit some megabytes)");
   add_budget_options(*command, options->frame_rate, options->clock_mhz);
+  command->add_flag("--self-test", options->self_test,
+                    "with the built-in self-test, whose checksum the driver's header and the bench have");
   command->add_flag("--measure", options->measure,
                     "area and timing of the array by the project's synthesis flow, in its folder (minutes)");
   command->add_option("-o,--out", options->out, "folder to make")->required();

@@ -20,6 +20,7 @@
 #include "dtof/photon/photon_source.hpp"
 #include "rtl/settings.hpp"
 #include "sources/sources.hpp"
+#include "subsystem/self_test_reference.hpp"
 #include "vectors/stimulus.hpp"
 
 namespace dtof {
@@ -82,10 +83,13 @@ void check(const ProductRequest& request) {
   }
 }
 
-/// The parameters of dtof_subsystem; the time gate only where it is asked for.
+/// The parameters of dtof_subsystem; time gate and self-test only where they are asked for.
 std::vector<RtlSetting> settings_of(const ProductRequest& request) {
   std::vector<RtlSetting> settings = rtl_settings(configuration_of(request), RtlTop::kSubsystem);
   std::ranges::find(settings, "TIME_GATE", &RtlSetting::name)->value = request.parameters.time_gate ? 1 : 0;
+  if (request.self_test) {
+    settings.push_back({"SELF_TEST", 1});
+  }
   return settings;
 }
 
@@ -240,7 +244,33 @@ std::string template_digits(const PoolTemplate& coarse_template) {
   return digits;
 }
 
-std::string driver_header(const ProductRequest& request) {
+/// A self-test: with the default settings, the product's schedule and `seed`, the words of the frame have the
+/// checksum `expected`.
+struct SelfTest {
+  std::uint32_t acquisitions;
+  std::uint32_t seed;
+  std::uint32_t expected;
+};
+
+SelfTest self_test_of(const ProductRequest& request, std::uint32_t acquisitions) {
+  constexpr std::uint32_t kSeed = 1;
+  return {acquisitions, kSeed, self_test_signature(configuration_of(request), false, acquisitions, kSeed)};
+}
+
+/// Settings and checksum for dtof_self_test, with a sentence of how to use them.
+std::string self_test_settings(const SelfTest& test, const std::string& schedule) {
+  return fmt::format(
+      "/* For dtof_self_test: write these settings before it, with a TEMPLATE of 0; then those of the "
+      "product. */\n"
+      "#define DTOF_PRODUCT_SELF_TEST_ACQUISITIONS {}\n#define DTOF_PRODUCT_SELF_TEST_SEED 0x{:08X}UL\n"
+      "#define DTOF_PRODUCT_SELF_TEST_EXPECTED 0x{:08X}UL\n\n"
+      "static inline dtof_settings dtof_product_self_test_settings(const dtof_device *device) {{\n"
+      "  dtof_settings settings = dtof_default_settings(device, DTOF_PRODUCT_SELF_TEST_ACQUISITIONS);\n{}"
+      "  return settings;\n}}\n\n",
+      test.acquisitions, test.seed, test.expected, schedule);
+}
+
+std::string driver_header(const ProductRequest& request, const SelfTest& self_test) {
   const SensorModel sensor = request.sensor.as_calibrated();
   const FlatCalibration calibration(sensor);
   const std::array<ReadoutParameters, 1> readouts = {request.parameters};
@@ -256,11 +286,12 @@ std::string driver_header(const ProductRequest& request) {
     points += fmt::format("    {{{:.6f}, {:.4f}}},\n", knot.position, knot.distance_m * 1e3);
   }
   const PoolPointerParameters& pool = request.parameters.pool;
+  std::string schedule;
   std::string changes;
   if (is_pool_readout(request.parameters.readout)) {
-    changes =
-        fmt::format("  settings.coarse_share = {};\n  settings.track_share = {};\n  settings.smooth = {};\n",
-                    pool.coarse_share, pool.track_share, pool.smooth);
+    schedule = fmt::format("  settings.coarse_share = {};\n  settings.track_share = {};\n", pool.coarse_share,
+                           pool.track_share);
+    changes = schedule + fmt::format("  settings.smooth = {};\n", pool.smooth);
   }
   if (request.parameters.time_gate) {
     changes += fmt::format("  settings.gate_begin = {};\n  settings.gate_end = {};\n",
@@ -276,12 +307,13 @@ std::string driver_header(const ProductRequest& request) {
       "{}\n\n"
       "static inline dtof_settings dtof_product_settings(const dtof_device *device) {{\n"
       "  dtof_settings settings = dtof_default_settings(device, DTOF_PRODUCT_ACQUISITIONS);\n{}  return "
-      "settings;\n}}\n\n{}"
+      "settings;\n}}\n\n{}{}"
       "static const dtof_point dtof_product_table[DTOF_PRODUCT_POINTS] = {{\n{}}};\n\n#endif\n",
       kLicence, readout_title(request.parameters.readout), request.sensor.name, calibration.description(),
       request.klux, request.parameters.np, result_fraction_bits(request.parameters),
       request.sensor.acquisitions, request.sensor.time_resolution_s() * 1e12,
-      request.sensor.pulse_fwhm_s * 1e12, knots.size(), changes, template_array(pool.coarse_template),
+      request.sensor.pulse_fwhm_s * 1e12, knots.size(), changes,
+      request.self_test ? self_test_settings(self_test, schedule) : "", template_array(pool.coarse_template),
       points);
 }
 
@@ -333,6 +365,7 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
   const CodeGate gate = request.parameters.time_gate.value_or(CodeGate{0, request.parameters.no_detection()});
   const std::uint64_t clocks =
       predicted_frame_clocks(request.parameters, sensor.rows, sensor.columns, sensor.acquisitions);
+  const SelfTest self_test = request.self_test ? self_test_of(request, sensor.acquisitions) : SelfTest{};
   const auto number = [](auto value) { return fmt::format("{}", value); };
   const std::vector<std::pair<std::string, std::string>> values = {
       {"TITLE", std::string(readout_title(request.parameters.readout))},
@@ -349,7 +382,10 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
       {"GATE_BEGIN", number(gate.begin)},
       {"GATE_END", number(gate.end)},
       {"FRACTION_BITS", number(result_fraction_bits(request.parameters))},
-      {"MOST_CLOCKS", fmt::format("{}.0", 2 * clocks + 20000)},
+      {"SELF_TEST", number(request.self_test ? 1 : 0)},
+      {"SELF_TEST_SEED", fmt::format("{:08x}", self_test.seed)},
+      {"SELF_TEST_EXPECTED", fmt::format("{:08x}", self_test.expected)},
+      {"MOST_CLOCKS", fmt::format("{}.0", (request.self_test ? 4 : 2) * clocks + 20000)},
       {"PERIOD", fmt::format("{:.4f}", 1e9 / request.budget.clock_hz)},
       {"MHZ", fmt::format("{:g}", request.budget.clock_hz * 1e-6)},
       {"SCENE", std::string(scene_name(request.scene))},
@@ -369,7 +405,7 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
     files[path] = source(path);
   }
   files["driver/check.c"] = filled("check.c", values);
-  files["driver/dtof_product.h"] = driver_header(request);
+  files["driver/dtof_product.h"] = driver_header(request, self_test);
   for (const char* name : {"dtof.c", "dtof.h", "dtof_registers.h"}) {
     files[fmt::format("driver/{}", name)] = source(fmt::format("driver/{}", name));
   }

@@ -22,6 +22,7 @@ struct ProductRequest {
   double klux = 14.0;
   std::uint64_t seed = 1;
   std::uint32_t vector_acquisitions = 0;  ///< 0: the sensor's number, limited to a few megabytes of vectors
+  bool self_test = false;  ///< with dtof_self_test, whose expected checksum is in driver and bench
   FrameBudget budget;
   int threads = 0;
   std::string command;       ///< command that made the product, without options that do not change its files

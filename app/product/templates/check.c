@@ -29,6 +29,12 @@ int main(void) {
     printf("FAIL: the settings have other acquisitions\n");
     return 1;
   }
+#ifdef DTOF_PRODUCT_SELF_TEST_EXPECTED
+  if (dtof_product_self_test_settings(&device).acquisitions != DTOF_PRODUCT_SELF_TEST_ACQUISITIONS) {
+    printf("FAIL: the settings of the self-test have other acquisitions\n");
+    return 1;
+  }
+#endif
   printf("driver: %u points from %.0f to %.0f mm, %lu acquisitions a frame\n", (unsigned)DTOF_PRODUCT_POINTS,
          dtof_product_table[0].distance_mm, dtof_product_table[DTOF_PRODUCT_POINTS - 1].distance_mm,
          (unsigned long)settings.acquisitions);

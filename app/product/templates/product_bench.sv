@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame of this sensor's photons through dtof_product, as a chip would have it: registers by APB4, lines with gaps, results
-// that wait now and then. Every result word is compared with the model's (vectors/results.hex). Ends with PASS or FAIL.
+// that wait now and then. Every result word is compared with the model's (vectors/results.hex). Then, where the product has it, the built-in
+// self-test, with the model's checksum and with a wrong one. Ends with PASS or FAIL.
 `timescale 1ns / 1ps
 
 // verilator lint_off TIMESCALEMOD
@@ -20,6 +21,7 @@ module product_bench;
   localparam int GATE_BEGIN = @GATE_BEGIN@;
   localparam int GATE_END = @GATE_END@;
   localparam int FRACTION_BITS = @FRACTION_BITS@;  // of a result
+  localparam int SELF_TEST = @SELF_TEST@;
   localparam int LINES = ACQUISITIONS * ROWS * SLOTS;
 
   logic clk = 1'b0;
@@ -112,6 +114,18 @@ module product_bench;
     end_transfer;
   endtask
 
+  // The verdict must be `passes`.
+  task automatic self_test(input logic [31:0] expected_crc, input logic passes);
+    logic [31:0] value;
+    write(dtof_registers_pkg::SELF_TEST_EXPECTED, expected_crc);
+    write(dtof_registers_pkg::CONTROL, 32'd1 << dtof_registers_pkg::CONTROL_SELF_TEST_LSB);
+    value = 32'd1 << dtof_registers_pkg::STATUS_SELF_TEST_LSB;
+    while (value[dtof_registers_pkg::STATUS_SELF_TEST_LSB]) read(dtof_registers_pkg::STATUS, value);
+    if (value[dtof_registers_pkg::STATUS_PASSED_LSB] != passes) fail("the self-test has another verdict");
+    read(dtof_registers_pkg::ERROR, value);
+    if (value[dtof_registers_pkg::ERROR_SELF_TEST_LSB] == passes) fail("ERROR.SELF_TEST is not the verdict");
+  endtask
+
   int source_seed = 1;
 
   initial begin : source
@@ -199,6 +213,15 @@ module product_bench;
     if (words != ROWS * COLUMNS || !received) fail("the frame is not whole");
     $display("%0d acquisitions of %0d x %0d pixels in %0d clocks, %0d results", ACQUISITIONS, COLUMNS, ROWS, cycles,
              words);
+    if (SELF_TEST != 0) begin
+      for (int i = 0; TEMPLATE != 0 && i < 8; ++i) write(dtof_registers_pkg::TEMPLATE + 12'(4 * i), '0);
+      if (TIME_GATE != 0) write(dtof_registers_pkg::GATE, ((32'd1 << NP) - 1) << dtof_registers_pkg::GATE_END_LSB);
+      write(dtof_registers_pkg::SELF_TEST_SEED, 32'h@SELF_TEST_SEED@);
+      self_test(32'h@SELF_TEST_EXPECTED@, 1'b1);
+      self_test(~32'h@SELF_TEST_EXPECTED@, 1'b0);
+      if (words != ROWS * COLUMNS) fail("a word of a self-test has left");
+      $display("self-test: passed, and failed with a wrong checksum");
+    end
     if (failures != 0) $display("FAIL: %0d errors", failures);
     else $display("PASS");
     $finish(0);

@@ -103,6 +103,27 @@ TEST_F(Product, OfAPoolReadoutPassesItsOwnMake) {
   EXPECT_EQ(checked.exit_code, 0) << checked.output;
 }
 
+TEST_F(Product, WithASelfTestRunsItInItsBench) {
+  std::ofstream(folder_ / "fog.toml") << kSensor << "\n[fog]\nextinction_per_m = 0.1\n";
+  const std::string fog =
+      fmt::format("{} product --sensor fog.toml --self-test --vector-acquisitions 30 ", DTOF_PROGRAM);
+  for (const char* readout : {"ezpointer --code-gate 20 500", "poolpointer-lean --template"}) {
+    SCOPED_TRACE(readout);
+    ASSERT_EQ(shell(fmt::format("rm -rf chip; {} --readout {} --out chip", fog, readout)).exit_code, 0);
+    const Outcome checked = shell("make -C chip icarus driver");
+    EXPECT_EQ(checked.exit_code, 0) << checked.output;
+    EXPECT_THAT(checked.output, HasSubstr("self-test: passed, and failed with a wrong checksum"));
+    EXPECT_THAT(read_file(folder_ / "chip/driver/dtof_product.h"),
+                HasSubstr("#define DTOF_PRODUCT_SELF_TEST_EXPECTED 0x"));
+  }
+  // A fault that changes results changes the checksum.
+  replace("chip/rtl/hdl/subsystem/dtof_self_test.sv", "MIXED = (32'(c) + 32'd1)", "MIXED = (32'(c) + 32'd2)");
+  EXPECT_THAT(shell("make -C chip icarus").output, HasSubstr("ERROR.SELF_TEST is not the verdict"));
+  ASSERT_EQ(product("--readout ezpointer --out without").exit_code, 0);
+  EXPECT_THAT(read_file(folder_ / "without/driver/dtof_product.h"), Not(HasSubstr("SELF_TEST")));
+  EXPECT_THAT(read_file(folder_ / "without/rtl/dtof_product.sv"), Not(HasSubstr("SELF_TEST")));
+}
+
 TEST_F(Product, ThatIsToldOfFogHasItsTemplate) {
   std::ofstream(folder_ / "fog.toml") << kSensor << "\n[fog]\nextinction_per_m = 0.1\n";
   ASSERT_EQ(shell(fmt::format("{} product --sensor fog.toml --readout poolpointer --template --out chip",
