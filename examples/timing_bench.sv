@@ -88,6 +88,8 @@ module timing_bench #(
     pwdata = data;
     clocks(1);
     penable = 1'b1;
+    @(negedge clk);
+    while (!pready) @(negedge clk);
     clocks(1);
     psel = 1'b0;
     penable = 1'b0;

@@ -253,13 +253,13 @@ module apb_registers_properties #(
     endcase
   endfunction
 
-  // Accesses. A transfer without wait states ends in its access.
-  logic access, exists, legal, writes, starts, commits;
+  // Accesses. A transfer takes effect in the first clock of its access, and is answered in the next clock.
+  logic access, answered_q, exists, legal, writes, starts, commits;
   logic [11:0] offset;
   logic [31:0] bytes, ones;
 
   assign offset = {paddr_i[11:2], 2'b00};
-  assign access = rst_n && psel_i && penable_i;
+  assign access = rst_n && psel_i && penable_i && !answered_q;
   assign bytes = {{8{pstrb_i[3]}}, {8{pstrb_i[2]}}, {8{pstrb_i[1]}}, {8{pstrb_i[0]}}};
   assign ones = pwdata_i & bytes;
   assign exists = (offset <= 12'h030) || (offset >= 12'h040 && offset <= 12'h14c);
@@ -299,12 +299,12 @@ module apb_registers_properties #(
   logic [9:0] error_events, error_q;
   logic [3:0] warning_events, warning_q;
   logic [1:0] causes, cause_q, cause_enable_q;
-  logic start_q, self_test_q, flush_q, abort_q, reseed_q;
+  logic start_q, self_test_q, flush_q, abort_q, reseed_q, failed_q;  // failed_q: an error in the last clock
 
   assign error_events = {self_test_failed_i, parity_error_i, flush_ignored_i, stalled_i, timeout_i, short_i || long_i, overrun_i, illegal_schedule_i,
                          start_ignored_i, underrun_i};
   assign warning_events = {long_i, short_i, aborted_i, counter_full_i};
-  assign causes = {error_events != '0, frame_i};
+  assign causes = {failed_q, frame_i};
 
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
@@ -312,12 +312,13 @@ module apb_registers_properties #(
       warning_q <= '0;
       cause_q <= '0;
       cause_enable_q <= '0;
-      {start_q, self_test_q, flush_q, abort_q, reseed_q} <= '0;
+      {start_q, self_test_q, flush_q, abort_q, reseed_q, failed_q} <= '0;
     end else begin
       error_q <= error_events | ((writes && offset == dtof_registers_pkg::ERROR) ? error_q & ~ones[9:0] : error_q);
       warning_q <= warning_events | ((writes && offset == dtof_registers_pkg::WARNING) ? warning_q & ~ones[3:0] : warning_q);
       cause_q <= causes | ((writes && offset == dtof_registers_pkg::IRQ_STATUS) ? cause_q & ~ones[1:0] : cause_q);
       if (writes && offset == dtof_registers_pkg::IRQ_ENABLE && pstrb_i[0]) cause_enable_q <= pwdata_i[1:0];
+      failed_q <= error_events != '0;
       start_q <= starts;
       self_test_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[4];
       flush_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[2];
@@ -364,6 +365,16 @@ module apb_registers_properties #(
     endcase
   end
 
+  // The answer to the access of the last clock.
+  logic refused_q, reads_q;  // reads_q: the read's result is known
+  logic [31:0] read_q;
+  always_ff @(posedge clk_i) begin
+    answered_q <= access;
+    refused_q <= !legal;
+    reads_q <= !pwrite_i && (is_fixed || (exists && offset == watched));
+    read_q <= is_fixed ? fixed : stored_q;
+  end
+
   // The watched register at the outputs: the settings of frames behind a commit, the others at once.
   logic has_output, at_once;
   logic [31:0] shown;
@@ -399,7 +410,9 @@ module apb_registers_properties #(
     endcase
   end
 
-  apb_rules u_apb_rules (
+  apb_rules #(
+      .MOST_WAITS(1)
+  ) u_apb_rules (
       .clk_i    (clk_i),
       .rst_ni   (rst_n),
       .checking (checking),
@@ -413,9 +426,9 @@ module apb_registers_properties #(
       .pslverr_i(pslverr)
   );
 
-  `PROVE(a_error, !access || pslverr == !legal)
-  `PROVE(a_read_fixed, !(access && !pwrite_i && is_fixed) || prdata == fixed)
-  `PROVE(a_read_stored, !(access && !pwrite_i && exists && !is_fixed && offset == watched) || prdata == stored_q)
+  `PROVE(a_answer, !rst_n || pready == answered_q)
+  `PROVE(a_error, !(rst_n && answered_q && psel_i && penable_i) || pslverr == refused_q)
+  `PROVE(a_read, !(rst_n && answered_q && reads_q) || prdata == read_q)
   `PROVE(a_at_once, !(rst_n && has_output && at_once) || shown == stored_q)
   `PROVE(a_committed, !(rst_n && has_output && !at_once && committed_once_q) || shown == committed_q)
   `PROVE(a_commands, !rst_n || {start, self_test, flush, abort, reseed} == {start_q, self_test_q, flush_q, abort_q, reseed_q})

@@ -34,7 +34,9 @@ module array_reset_properties (
 
   // Clocks since the last abort, at most 15; 15 without an abort.
   logic [3:0] since_q;
+  logic released_q;  // rst_ni was high in the last clock
   always_ff @(posedge clk_i) begin
+    released_q <= rst_n;
     if (!rst_n) begin
       since_q <= 4'd15;
     end else if (abort_i) begin
@@ -44,8 +46,8 @@ module array_reset_properties (
     end
   end
 
-  `PROVE(a_reset, !rst_n || in_reset == (since_q <= 4'd8))
-  `PROVE(a_array, array_rst_n == (rst_n && (scan_mode_i || since_q > 4'd8)))
+  `PROVE(a_reset, !rst_n || in_reset == (since_q <= 4'd8 || !released_q))
+  `PROVE(a_array, array_rst_n == (rst_n && (scan_mode_i || (released_q && since_q > 4'd8))))
   `PROVE(a_busy, !rst_n || busy == (since_q <= 4'd11))
   `GOAL(rst_n && since_q == 4'd12 && !busy)
 

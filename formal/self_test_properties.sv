@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Proves of dtof_self_test: a self-test has one verdict, two clocks after its last word, and none after an abort; frame_o is that of the
+// Proves of dtof_self_test: a self-test has one verdict, three clocks after its last word, and none after an abort; frame_o is that of the
 // frame that began last; passed_o is never high during a self-test.
 `include "properties.svh"
 
@@ -61,13 +61,13 @@ module self_test_properties #(
 
   // A frame begins while no self-test is under way, not with an abort. A frame has one last word.
   logic under_way_q, frame_q, passes_q;
-  logic [1:0] clocks_q;  // since the last word: 1, 2
+  logic [1:0] clocks_q;  // since the last word: 1, 2, 3
   `ASSUME(m_begin, !begin_i || (!under_way_q && !abort_i))
   `ASSUME(m_word, !word_ends_i || clocks_q == 2'd0)
   `ASSUME(m_clear, !clear_i || !under_way_q)
 
   logic ends;
-  assign ends = under_way_q && clocks_q == 2'd2 && !abort_i;
+  assign ends = under_way_q && clocks_q == 2'd3 && !abort_i;
 
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin

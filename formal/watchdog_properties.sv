@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Proves of dtof_watchdog: expired_o is high exactly in the clock after limit_i successive clocks of one wait, and never with limit_i = 0,
+// Proves of dtof_watchdog: expired_o is high exactly two clocks after the last of limit_i successive clocks of one wait, and never with limit_i = 0,
 // for any sequence of waits.
 `include "properties.svh"
 
@@ -34,16 +34,18 @@ module watchdog_properties #(
       .expired_o(expired)
   );
 
-  // Clocks of the wait up to the last clock, counted from the begin of the wait or from the last expiry.
+  // Clocks of the wait up to the last clock but one, counted from the begin of the wait or from the last expiry.
   logic [WIDTH:0] waited_q, waited;
+  logic waits_q;
   logic due;
   assign due = (limit != '0) && (waited_q == {1'b0, limit});
   assign waited = due ? '0 : waited_q;
   always_ff @(posedge clk_i) begin
+    waits_q <= rst_n && waits_i;
     if (!rst_n || limit == '0) begin
       waited_q <= '0;
     end else begin
-      waited_q <= waits_i ? waited + 1'b1 : '0;
+      waited_q <= waits_q ? waited + 1'b1 : '0;
     end
   end
 

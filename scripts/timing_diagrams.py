@@ -57,7 +57,7 @@ DIAGRAMS = (
     Diagram(1, "registers", "START is written, STATUS read, an offset refused", (
         Lane("psel_i", "psel"), Lane("penable_i", "penable"), Lane("pwrite_i", "pwrite", valid="psel"),
         Lane("paddr_i", "paddr", 12, valid="psel"), Lane("pwdata_i", "pwdata", 32, valid="psel&pwrite"), Lane("pready_o", "pready"),
-        Lane("prdata_o", "prdata", 32, valid="penable&!pwrite"), Lane("pslverr_o", "pslverr"),
+        Lane("prdata_o", "prdata", 32, valid="penable&pready&!pwrite"), Lane("pslverr_o", "pslverr"),
         Lane("array: start_i", "u_subsystem.begin_frame"))),
     Diagram(2, "lines", "An acquisition of four lines with a gap", (*SOURCE, LEVEL, *ARRAY)),
     Diagram(3, "results", "Four results, of which the sink lets the second wait", (

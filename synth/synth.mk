@@ -34,7 +34,7 @@ synth-flat synth-corners synth-namings: synth-%:
 	@synth/synth.py $* $(CONFIGURATIONS)
 
 synth-subsystem:
-	@synth/around_array.py $(CONFIGURATIONS)
+	@synth/around_array.py $(CONFIGURATIONS) $(if $(STRICT),--strict)
 
 # The other checkout is by default that of the other Debian (scripts/try_debian.sh trixie --run "make synth").
 OTHER ?= build/debian/trixie/srv/dtof-readout

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The registers of dtof_subsystem behind an APB4 port (hdl/subsystem/registers.toml; table in docs/user/integration.md).
 //
-// A transfer takes the two clocks of APB, without wait states. pslverr_o reports an access to an offset without a register, a write to a
+// A transfer takes three clocks, with one wait state. pslverr_o reports an access to an offset without a register, a write to a
 // register without a writable bit in this configuration, and a write of 1 to a bit of a setting or command that this configuration
 // does not have. Such an access writes nothing. pstrb_i selects bytes; there is no pprot.
 // Settings become valid together, with COMMIT, START or a self-test. CONTROL, IRQ_ENABLE, WATCHDOG, SHOT_SEED, SELF_TEST_SEED and
 // SELF_TEST_EXPECTED are valid at once. If software clears a bit in the clock of a new event, the bit stays set.
-// Schedule: clock 0 is APB's setup, clock 1 its access: a write takes effect at the end of clock 1; prdata_o is combinational.
+// Schedule: clock 0 is APB's setup. A write takes effect at the end of clock 1, and a read samples in clock 1. In clock 2 pready_o is high;
+// prdata_o comes from flip-flops. irq_o shows an error one clock after ERROR has it.
 // Latency: a command is a pulse in the clock after its write; a committed setting is at its output in the clock after the commit.
 // Cost: two flip-flops per bit of a setting, SRAM_NUM such bits for the columns, and the read multiplexer.
 `include "dtof_macros.svh"
@@ -133,22 +134,20 @@ module dtof_apb_registers #(
   localparam int CAUSES = 2;  // causes of an interrupt
   localparam int WEAK_WIDTH = dtof_pkg::min_of(CONFIDENCE_WIDTH + 1, 16);
 
-  // A write takes effect in the transfer's second clock.
+  // A write takes effect in the transfer's second clock. Its answer is in the third.
 
-  logic access, known, writable, write, starts, commit;
+  logic access, answer_q, error_answer_q, known, writable, write, starts, commit;
   logic [11:0] offset;
   logic [31:0] mask;     // bits that pstrb_i selects
   logic [31:0] written;  // selected bits that are written as 1
   logic [31:0] there;    // bits that a write of 1 may set: fields of this configuration, or all bits where a 1 has no effect
 
   assign offset = {paddr_i[11:2], 2'b00};
-  assign access = psel_i && penable_i;
+  assign access = psel_i && penable_i && !answer_q;
   assign known = dtof_registers_pkg::is_register(offset);
   assign writable = dtof_registers_pkg::is_writable(offset) && (there != '0) && ((written & ~there) == '0);
   assign write = access && pwrite_i && writable;
   assign mask = {{8{pstrb_i[3]}}, {8{pstrb_i[2]}}, {8{pstrb_i[1]}}, {8{pstrb_i[0]}}};
-  assign pready_o = 1'b1;
-  assign pslverr_o = access && (pwrite_i ? !writable : !known);
 
   assign written = pwdata_i & mask;
   assign starts = write && (offset == dtof_registers_pkg::CONTROL)
@@ -158,10 +157,32 @@ module dtof_apb_registers #(
   logic unused_address;
   assign unused_address = ^paddr_i[1:0];
 
+  logic [31:0] read_data, read_data_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      answer_q <= 1'b0;
+      error_answer_q <= 1'b0;
+    end else begin
+      answer_q <= access;
+      error_answer_q <= access && (pwrite_i ? !writable : !known);
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (access) begin
+      read_data_q <= read_data;
+    end
+  end
+
+  assign pready_o = answer_q;
+  assign pslverr_o = psel_i && penable_i && error_answer_q;
+  assign prdata_o = read_data_q;
+
   // Commands, settings, and flags that events set.
 
   logic start_q, flush_q, abort_q, continuous_q;
-  logic [ERRORS-1:0] error_q, error_event, error_cleared;
+  logic [ERRORS-1:0] error_q, error_event, error_event_q, error_cleared;
   logic [WARNINGS-1:0] warning_q, warning_event, warning_cleared;
   logic [23:0] watchdog_q;
   logic [CAUSES-1:0] cause_q, cause_event, cause_cleared, cause_enable_q;
@@ -195,7 +216,7 @@ module dtof_apb_registers #(
     warning_event[dtof_registers_pkg::WARNING_LONG_LSB] = long_i;
     cause_event = '0;
     cause_event[dtof_registers_pkg::IRQ_STATUS_FRAME_LSB] = frame_i;
-    cause_event[dtof_registers_pkg::IRQ_STATUS_ERROR_LSB] = |error_event;
+    cause_event[dtof_registers_pkg::IRQ_STATUS_ERROR_LSB] = |error_event_q;
   end
 
   assign error_cleared = (write && offset == dtof_registers_pkg::ERROR) ? written[ERRORS-1:0] : '0;
@@ -210,6 +231,7 @@ module dtof_apb_registers #(
       abort_q <= 1'b0;
       continuous_q <= 1'b0;
       error_q <= '0;
+      error_event_q <= '0;
       cause_q <= '0;
       warning_q <= '0;
       watchdog_q <= 24'(dtof_registers_pkg::WATCHDOG_RESET);
@@ -229,6 +251,7 @@ module dtof_apb_registers #(
       abort_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_ABORT_LSB];
       shot_reseed_q <= write && (offset == dtof_registers_pkg::SHOT_SEED) && (pstrb_i[1:0] != '0);
       error_q <= (error_q & ~error_cleared) | error_event;
+      error_event_q <= error_event;
       cause_q <= (cause_q & ~cause_cleared) | cause_event;
       warning_q <= (warning_q & ~warning_cleared) | warning_event;
       if (illegal_schedule_i) begin
@@ -558,122 +581,122 @@ module dtof_apb_registers #(
   // Read data.
 
   always_comb begin
-    prdata_o = '0;
+    read_data = '0;
     case (offset)
-      dtof_registers_pkg::ID: prdata_o = dtof_registers_pkg::ID_VALUE;
-      dtof_registers_pkg::VERSION: prdata_o = dtof_registers_pkg::VERSION_VALUE;
+      dtof_registers_pkg::ID: read_data = dtof_registers_pkg::ID_VALUE;
+      dtof_registers_pkg::VERSION: read_data = dtof_registers_pkg::VERSION_VALUE;
       dtof_registers_pkg::READOUT: begin
-        prdata_o[dtof_registers_pkg::READOUT_NUMBER_LSB+:8] = 8'(READOUT);
-        prdata_o[dtof_registers_pkg::READOUT_SCHEDULE_LSB] = (HAS_SCHEDULE != 0);
-        prdata_o[dtof_registers_pkg::READOUT_TIME_GATE_LSB] = (TIME_GATE != 0);
-        prdata_o[dtof_registers_pkg::READOUT_RASTER_ORDER_LSB] = (RASTER_ORDER != 0);
-        prdata_o[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
-        prdata_o[dtof_registers_pkg::READOUT_PRIOR_LSB] = (PRIOR != 0);
-        prdata_o[dtof_registers_pkg::READOUT_PARITY_LSB] = (PARITY != 0);
-        prdata_o[dtof_registers_pkg::READOUT_SELF_TEST_LSB] = (SELF_TEST != 0);
-        prdata_o[dtof_registers_pkg::READOUT_CLOCK_WAITS_LSB] = (CLOCK_WAITS != 0);
-        prdata_o[dtof_registers_pkg::READOUT_SOURCE_WAITS_LSB] = (SOURCE_WAITS != 0);
-        prdata_o[dtof_registers_pkg::READOUT_RAW_HISTOGRAM_LSB] = (RAW_HISTOGRAM != 0);
+        read_data[dtof_registers_pkg::READOUT_NUMBER_LSB+:8] = 8'(READOUT);
+        read_data[dtof_registers_pkg::READOUT_SCHEDULE_LSB] = (HAS_SCHEDULE != 0);
+        read_data[dtof_registers_pkg::READOUT_TIME_GATE_LSB] = (TIME_GATE != 0);
+        read_data[dtof_registers_pkg::READOUT_RASTER_ORDER_LSB] = (RASTER_ORDER != 0);
+        read_data[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
+        read_data[dtof_registers_pkg::READOUT_PRIOR_LSB] = (PRIOR != 0);
+        read_data[dtof_registers_pkg::READOUT_PARITY_LSB] = (PARITY != 0);
+        read_data[dtof_registers_pkg::READOUT_SELF_TEST_LSB] = (SELF_TEST != 0);
+        read_data[dtof_registers_pkg::READOUT_CLOCK_WAITS_LSB] = (CLOCK_WAITS != 0);
+        read_data[dtof_registers_pkg::READOUT_SOURCE_WAITS_LSB] = (SOURCE_WAITS != 0);
+        read_data[dtof_registers_pkg::READOUT_RAW_HISTOGRAM_LSB] = (RAW_HISTOGRAM != 0);
       end
       dtof_registers_pkg::SIZE: begin
-        prdata_o[dtof_registers_pkg::SIZE_COLUMNS_LSB+:16] = 16'(SRAM_NUM);
-        prdata_o[dtof_registers_pkg::SIZE_ROWS_LSB+:16] = 16'(PIXELS_PER_SRAM);
+        read_data[dtof_registers_pkg::SIZE_COLUMNS_LSB+:16] = 16'(SRAM_NUM);
+        read_data[dtof_registers_pkg::SIZE_ROWS_LSB+:16] = 16'(PIXELS_PER_SRAM);
       end
       dtof_registers_pkg::WIDTHS: begin
-        prdata_o[dtof_registers_pkg::WIDTHS_TIMESTAMP_LSB+:8] = 8'(NP);
-        prdata_o[dtof_registers_pkg::WIDTHS_FRACTION_LSB+:8] = 8'(FRACTION_WIDTH);
-        prdata_o[dtof_registers_pkg::WIDTHS_CONFIDENCE_LSB+:8] = 8'(CONFIDENCE_WIDTH);
-        prdata_o[dtof_registers_pkg::WIDTHS_ACQUISITIONS_LSB+:8] = 8'(ACQ_WIDTH);
+        read_data[dtof_registers_pkg::WIDTHS_TIMESTAMP_LSB+:8] = 8'(NP);
+        read_data[dtof_registers_pkg::WIDTHS_FRACTION_LSB+:8] = 8'(FRACTION_WIDTH);
+        read_data[dtof_registers_pkg::WIDTHS_CONFIDENCE_LSB+:8] = 8'(CONFIDENCE_WIDTH);
+        read_data[dtof_registers_pkg::WIDTHS_ACQUISITIONS_LSB+:8] = 8'(ACQ_WIDTH);
       end
       dtof_registers_pkg::LINES: begin
-        prdata_o[dtof_registers_pkg::LINES_ACQUISITION_LSB+:16] = 16'(PIXELS_PER_SRAM * SLOTS);
-        prdata_o[dtof_registers_pkg::LINES_BUFFER_LSB+:16] = 16'(BUFFER_LINES);
+        read_data[dtof_registers_pkg::LINES_ACQUISITION_LSB+:16] = 16'(PIXELS_PER_SRAM * SLOTS);
+        read_data[dtof_registers_pkg::LINES_BUFFER_LSB+:16] = 16'(BUFFER_LINES);
       end
-      dtof_registers_pkg::SLOTS: prdata_o[dtof_registers_pkg::SLOTS_VALUE_LSB+:8] = 8'(SLOTS);
-      dtof_registers_pkg::RAW_BINS: prdata_o[dtof_registers_pkg::RAW_BINS_VALUE_LSB+:17] = 17'(RAW_BINS);
+      dtof_registers_pkg::SLOTS: read_data[dtof_registers_pkg::SLOTS_VALUE_LSB+:8] = 8'(SLOTS);
+      dtof_registers_pkg::RAW_BINS: read_data[dtof_registers_pkg::RAW_BINS_VALUE_LSB+:17] = 17'(RAW_BINS);
       dtof_registers_pkg::HISTOGRAM: begin
-        prdata_o[dtof_registers_pkg::HISTOGRAM_COUNT_WIDTH_LSB+:8] = 8'(COUNT_WIDTH);
-        prdata_o[dtof_registers_pkg::HISTOGRAM_NB_LSB+:8] = 8'(NB);
-        prdata_o[dtof_registers_pkg::HISTOGRAM_WINDOW_CENTRED_LSB] = (WINDOW_CENTRED != 0);
+        read_data[dtof_registers_pkg::HISTOGRAM_COUNT_WIDTH_LSB+:8] = 8'(COUNT_WIDTH);
+        read_data[dtof_registers_pkg::HISTOGRAM_NB_LSB+:8] = 8'(NB);
+        read_data[dtof_registers_pkg::HISTOGRAM_WINDOW_CENTRED_LSB] = (WINDOW_CENTRED != 0);
       end
       dtof_registers_pkg::POINTER: begin
-        prdata_o[dtof_registers_pkg::POINTER_STEP_LSB+:15] = 15'(POINTER_STEP);
-        prdata_o[dtof_registers_pkg::POINTER_GUARD_LSB+:17] = 17'(GUARD);
+        read_data[dtof_registers_pkg::POINTER_STEP_LSB+:15] = 15'(POINTER_STEP);
+        read_data[dtof_registers_pkg::POINTER_GUARD_LSB+:17] = 17'(GUARD);
       end
       dtof_registers_pkg::POOL:
       if (HAS_SCHEDULE != 0) begin
-        prdata_o[dtof_registers_pkg::POOL_GROUP_SIZE_LSB+:8] = 8'(GROUP_SIZE);
-        prdata_o[dtof_registers_pkg::POOL_LABELS_LSB+:4] = 4'(LABELS);
-        prdata_o[dtof_registers_pkg::POOL_SCORE_BITS_LSB+:4] = 4'(SCORE_BITS);
-        prdata_o[dtof_registers_pkg::POOL_OFFSET_BITS_LSB+:4] = 4'(OFFSET_BITS);
-        prdata_o[dtof_registers_pkg::POOL_ADVANTAGE_WIDTH_LSB+:4] = 4'(ADVANTAGE_WIDTH);
-        prdata_o[dtof_registers_pkg::POOL_POINTER_SHIFT_LSB+:4] = 4'(POINTER_SHIFT);
-        prdata_o[dtof_registers_pkg::POOL_CELL_SHIFT_LSB+:4] = 4'(CELL_SHIFT);
+        read_data[dtof_registers_pkg::POOL_GROUP_SIZE_LSB+:8] = 8'(GROUP_SIZE);
+        read_data[dtof_registers_pkg::POOL_LABELS_LSB+:4] = 4'(LABELS);
+        read_data[dtof_registers_pkg::POOL_SCORE_BITS_LSB+:4] = 4'(SCORE_BITS);
+        read_data[dtof_registers_pkg::POOL_OFFSET_BITS_LSB+:4] = 4'(OFFSET_BITS);
+        read_data[dtof_registers_pkg::POOL_ADVANTAGE_WIDTH_LSB+:4] = 4'(ADVANTAGE_WIDTH);
+        read_data[dtof_registers_pkg::POOL_POINTER_SHIFT_LSB+:4] = 4'(POINTER_SHIFT);
+        read_data[dtof_registers_pkg::POOL_CELL_SHIFT_LSB+:4] = 4'(CELL_SHIFT);
       end
       dtof_registers_pkg::ENGINES:
       if (HAS_SCHEDULE != 0) begin
-        prdata_o[dtof_registers_pkg::ENGINES_COLUMNS_LSB+:16] = 16'(ENGINE_COLUMNS);
-        prdata_o[dtof_registers_pkg::ENGINES_RIVAL_MOVES_LSB] = (RIVAL_MOVES != 0);
+        read_data[dtof_registers_pkg::ENGINES_COLUMNS_LSB+:16] = 16'(ENGINE_COLUMNS);
+        read_data[dtof_registers_pkg::ENGINES_RIVAL_MOVES_LSB] = (RIVAL_MOVES != 0);
       end
       dtof_registers_pkg::SHARES:
       if (HAS_SCHEDULE != 0) begin
-        prdata_o[dtof_registers_pkg::SHARES_COARSE_LSB+:8] = 8'(COARSE_SHARE);
-        prdata_o[dtof_registers_pkg::SHARES_TRACK_LSB+:8] = 8'(TRACK_SHARE);
+        read_data[dtof_registers_pkg::SHARES_COARSE_LSB+:8] = 8'(COARSE_SHARE);
+        read_data[dtof_registers_pkg::SHARES_TRACK_LSB+:8] = 8'(TRACK_SHARE);
       end
-      dtof_registers_pkg::CONTROL: prdata_o[dtof_registers_pkg::CONTROL_CONTINUOUS_LSB] = continuous_q;
+      dtof_registers_pkg::CONTROL: read_data[dtof_registers_pkg::CONTROL_CONTINUOUS_LSB] = continuous_q;
       dtof_registers_pkg::STATUS: begin
-        prdata_o[dtof_registers_pkg::STATUS_BUSY_LSB] = busy_i;
-        prdata_o[dtof_registers_pkg::STATUS_STATE_LSB+:3] = state_i;
-        prdata_o[dtof_registers_pkg::STATUS_SELF_TEST_LSB] = self_test_busy_i;
-        prdata_o[dtof_registers_pkg::STATUS_PASSED_LSB] = self_test_passed_i;
-        prdata_o[dtof_registers_pkg::STATUS_LEVEL_LSB+:16] = level_i;
+        read_data[dtof_registers_pkg::STATUS_BUSY_LSB] = busy_i;
+        read_data[dtof_registers_pkg::STATUS_STATE_LSB+:3] = state_i;
+        read_data[dtof_registers_pkg::STATUS_SELF_TEST_LSB] = self_test_busy_i;
+        read_data[dtof_registers_pkg::STATUS_PASSED_LSB] = self_test_passed_i;
+        read_data[dtof_registers_pkg::STATUS_LEVEL_LSB+:16] = level_i;
       end
-      dtof_registers_pkg::ERROR: prdata_o = 32'(error_q);
-      dtof_registers_pkg::IRQ_ENABLE: prdata_o = 32'(cause_enable_q);
-      dtof_registers_pkg::IRQ_STATUS: prdata_o = 32'(cause_q);
-      dtof_registers_pkg::FRAME_COUNT: prdata_o = frame_count_i;
-      dtof_registers_pkg::FRAME_CYCLES: prdata_o = frame_cycles_i;
-      dtof_registers_pkg::FRAME_CRC: prdata_o = frame_crc_i;
-      dtof_registers_pkg::WARNING: prdata_o = 32'(warning_q);
-      dtof_registers_pkg::WATCHDOG: prdata_o = 32'(watchdog_q);
-      dtof_registers_pkg::LOST_LINES: prdata_o = lost_lines_i;
-      dtof_registers_pkg::LOST_ACQUISITIONS: prdata_o = lost_acquisitions_i;
-      dtof_registers_pkg::COMMIT: prdata_o = '0;
+      dtof_registers_pkg::ERROR: read_data = 32'(error_q);
+      dtof_registers_pkg::IRQ_ENABLE: read_data = 32'(cause_enable_q);
+      dtof_registers_pkg::IRQ_STATUS: read_data = 32'(cause_q);
+      dtof_registers_pkg::FRAME_COUNT: read_data = frame_count_i;
+      dtof_registers_pkg::FRAME_CYCLES: read_data = frame_cycles_i;
+      dtof_registers_pkg::FRAME_CRC: read_data = frame_crc_i;
+      dtof_registers_pkg::WARNING: read_data = 32'(warning_q);
+      dtof_registers_pkg::WATCHDOG: read_data = 32'(watchdog_q);
+      dtof_registers_pkg::LOST_LINES: read_data = lost_lines_i;
+      dtof_registers_pkg::LOST_ACQUISITIONS: read_data = lost_acquisitions_i;
+      dtof_registers_pkg::COMMIT: read_data = '0;
       dtof_registers_pkg::SHOT: begin
-        prdata_o[dtof_registers_pkg::SHOT_BITS_LSB+:3] = shot_bits_q;
-        prdata_o[dtof_registers_pkg::SHOT_UNIT_LSB+:8] = shot_unit_q;
+        read_data[dtof_registers_pkg::SHOT_BITS_LSB+:3] = shot_bits_q;
+        read_data[dtof_registers_pkg::SHOT_UNIT_LSB+:8] = shot_unit_q;
       end
-      dtof_registers_pkg::SHOT_SEED: prdata_o = 32'(shot_seed_q);
-      dtof_registers_pkg::SETTLE: prdata_o = 32'(settle_q);
-      dtof_registers_pkg::SELF_TEST_SEED: prdata_o = self_test_seed_o;
-      dtof_registers_pkg::SELF_TEST_EXPECTED: prdata_o = self_test_expected_o;
-      dtof_registers_pkg::PARITY_ERRORS: prdata_o = parity_errors_i;
-      dtof_registers_pkg::SHOT_STATE: prdata_o = 32'(shot_state_i);
-      dtof_registers_pkg::ACQUISITIONS: prdata_o = 32'(acquisitions_q);
-      dtof_registers_pkg::COARSE_END: prdata_o = 32'(coarse_end);
-      dtof_registers_pkg::TRACK_END: prdata_o = 32'(track_end);
+      dtof_registers_pkg::SHOT_SEED: read_data = 32'(shot_seed_q);
+      dtof_registers_pkg::SETTLE: read_data = 32'(settle_q);
+      dtof_registers_pkg::SELF_TEST_SEED: read_data = self_test_seed_o;
+      dtof_registers_pkg::SELF_TEST_EXPECTED: read_data = self_test_expected_o;
+      dtof_registers_pkg::PARITY_ERRORS: read_data = parity_errors_i;
+      dtof_registers_pkg::SHOT_STATE: read_data = 32'(shot_state_i);
+      dtof_registers_pkg::ACQUISITIONS: read_data = 32'(acquisitions_q);
+      dtof_registers_pkg::COARSE_END: read_data = 32'(coarse_end);
+      dtof_registers_pkg::TRACK_END: read_data = 32'(track_end);
       dtof_registers_pkg::GATE: begin
-        prdata_o[dtof_registers_pkg::GATE_BEGIN_LSB+:16] = 16'(gate_begin);
-        prdata_o[dtof_registers_pkg::GATE_END_LSB+:16] = 16'(gate_end);
+        read_data[dtof_registers_pkg::GATE_BEGIN_LSB+:16] = 16'(gate_begin);
+        read_data[dtof_registers_pkg::GATE_END_LSB+:16] = 16'(gate_end);
       end
-      dtof_registers_pkg::RELEASE: prdata_o = 32'(release_q);
-      dtof_registers_pkg::WEAK_BELOW: prdata_o = 32'(weak_below_q);
+      dtof_registers_pkg::RELEASE: read_data = 32'(release_q);
+      dtof_registers_pkg::WEAK_BELOW: read_data = 32'(weak_below_q);
       dtof_registers_pkg::OUTPUT: begin
-        prdata_o[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB] = second;
-        prdata_o[dtof_registers_pkg::OUTPUT_RAW_LSB] = raw;
-        prdata_o[dtof_registers_pkg::OUTPUT_SMOOTH_LSB] = smooth;
-        prdata_o[dtof_registers_pkg::OUTPUT_PRIOR_LSB] = prior;
-        prdata_o[dtof_registers_pkg::OUTPUT_SHORT_WORDS_LSB] = short_words_q;
+        read_data[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB] = second;
+        read_data[dtof_registers_pkg::OUTPUT_RAW_LSB] = raw;
+        read_data[dtof_registers_pkg::OUTPUT_SMOOTH_LSB] = smooth;
+        read_data[dtof_registers_pkg::OUTPUT_PRIOR_LSB] = prior;
+        read_data[dtof_registers_pkg::OUTPUT_SHORT_WORDS_LSB] = short_words_q;
       end
       dtof_registers_pkg::RAW_ROWS: begin
-        prdata_o[dtof_registers_pkg::RAW_ROWS_FIRST_LSB+:12] = raw_first;
-        prdata_o[dtof_registers_pkg::RAW_ROWS_LAST_LSB+:12] = raw_last;
+        read_data[dtof_registers_pkg::RAW_ROWS_FIRST_LSB+:12] = raw_first;
+        read_data[dtof_registers_pkg::RAW_ROWS_LAST_LSB+:12] = raw_last;
       end
       default:
       if (is_template) begin
-        prdata_o = template_word;
+        read_data = template_word;
       end else if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
-        prdata_o = enable_word;
+        read_data = enable_word;
       end
     endcase
   end

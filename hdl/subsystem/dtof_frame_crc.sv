@@ -9,9 +9,9 @@
 // crc32 of zlib over the words as bytes, the lowest byte first.
 // The checksum is linear over GF(2): next(crc, word) = next(crc, 0) ^ next(0, word). Each bit of both terms is the parity of some bits, which
 // the rows of a matrix select, so that a path has a tree of XORs instead of one XOR for each bit of the word.
-// Schedule: clock 0 the word is taken, clock 1 next(0, word) is registered, clock 2 the checksum is registered. irq_o can rise in clock 1; a
-// read transfer that begins in clock 1 has its data phase in clock 2, so it reads the new crc_o.
-// Latency: 2 clocks. Cost: 99 flip-flops, for 64 bits 947 two-input XORs, as Yosys shares them.
+// Schedule: clock 0 the word is taken, clock 1 the word is in a register, clock 2 next(0, word) is in a register, from clock 3 on crc_o is the
+// new checksum. irq_o can rise in clock 1; a read transfer that then begins in clock 2 samples crc_o in clock 3.
+// Latency: 3 clocks. Cost: 166 flip-flops, for 64 bits 947 two-input XORs, as Yosys shares them.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -64,7 +64,8 @@ module dtof_frame_crc #(
     end
   endfunction
 
-  logic taken_q, first_q, ends_q;
+  logic taken_q, first_q, ends_q, part_q, part_first_q, part_ends_q;
+  logic [WIDTH-1:0] word_q;
   logic [31:0] word_part, word_part_q, crc_part, first_part, crc_q, frame_crc_q, crc;
 
   genvar i;
@@ -72,35 +73,45 @@ module dtof_frame_crc #(
     for (i = 0; i < 32; i = i + 1) begin : g_bit
       localparam logic [WIDTH-1:0] WORD_ROW = word_row(i);
       localparam logic [31:0] CRC_ROW = crc_row(i);
-      assign word_part[i] = ^(word_i & WORD_ROW);
+      assign word_part[i] = ^(word_q & WORD_ROW);
       assign crc_part[i] = ^(crc_q & CRC_ROW);
       assign first_part[i] = ^CRC_ROW;  // of the initial value, all ones
     end
   endgenerate
 
-  assign crc = word_part_q ^ (first_q ? first_part : crc_part);
+  assign crc = word_part_q ^ (part_first_q ? first_part : crc_part);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       taken_q <= 1'b0;
-      first_q <= 1'b0;
-      ends_q <= 1'b0;
+      part_q <= 1'b0;
+      part_first_q <= 1'b0;
+      part_ends_q <= 1'b0;
       word_part_q <= '0;
       crc_q <= '0;
       frame_crc_q <= '0;
     end else begin
       taken_q <= taken_i;
-      if (taken_i) begin
-        first_q <= first_i;
-        ends_q <= last_i && !aborted_i;
+      part_q <= taken_q;
+      if (taken_q) begin
+        part_first_q <= first_q;
+        part_ends_q <= ends_q;
         word_part_q <= word_part;
       end
-      if (taken_q) begin
+      if (part_q) begin
         crc_q <= crc;
-        if (ends_q) begin
+        if (part_ends_q) begin
           frame_crc_q <= ~crc;
         end
       end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (taken_i) begin
+      word_q <= word_i;
+      first_q <= first_i;
+      ends_q <= last_i && !aborted_i;
     end
   end
 

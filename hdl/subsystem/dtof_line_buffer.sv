@@ -207,7 +207,7 @@ module dtof_line_buffer #(
       integer i;
       always_ff @(posedge clk_i) begin
         for (i = 0; i < LINES; i = i + 1) begin
-          if (write && write_address_q == ADDR_WIDTH'(i)) begin
+          if (s_tvalid_i && room && write_address_q == ADDR_WIDTH'(i)) begin  // a line that is not accepted leaves the place free
             lines_q[i*(WIDTH+1)+:WIDTH+1] <= {ends, s_tdata_i};
           end
         end

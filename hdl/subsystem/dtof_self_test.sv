@@ -15,9 +15,9 @@
 //   timestamp = {r[17] ? row_code ^ MIXED[31:27] : r[15:11], r[NP-6:0]}, or all ones if r[17:16] = 1;
 //   row_code = 19 row mod 32. With NP < 6 a coarse code has the lowest NP - 1 of these bits.
 // SelfTestLines in tb_cpp/subsystem/self_test_reference.hpp is the same in C++.
-// Schedule: clock 0 word_ends_i, clock 2 crc_i is the frame's; in clock 3 passed_o is valid and busy_o is low.
+// Schedule: clock 0 word_ends_i, clock 3 crc_i is the frame's; in clock 4 passed_o is valid and busy_o is low.
 // Latency: none; line_o is combinational, behind flip-flops.
-// Cost: NP = 10, 160 rows, 2 slots: 52 flip-flops, and 2620 two-input gates and multiplexers for 200 columns (1704 for 100), as Yosys 0.23 synth
+// Cost: NP = 10, 160 rows, 2 slots: 53 flip-flops, and 2620 two-input gates and multiplexers for 200 columns (1704 for 100), as Yosys 0.23 synth
 // counts them. Around this module dtof_subsystem has a multiplexer of SRAM_NUM x NP bits and 65 flip-flops of registers.
 
 // verilator lint_off TIMESCALEMOD
@@ -39,7 +39,7 @@ module dtof_self_test #(
     input  logic [           31:0] expected_i,   // stable until the end
     input  logic                   take_i,       // the array takes line_o
     input  logic                   word_ends_i,  // the last word of a frame is taken, and the frame was not aborted
-    input  logic [           31:0] crc_i,        // of that frame, two clocks later
+    input  logic [           31:0] crc_i,        // of that frame, three clocks later
     output logic [SRAM_NUM*NP-1:0] line_o,       // column 0 in the lowest bits
     output logic                   frame_o,      // the frame that began last is a self-test
     output logic                   busy_o,       // a self-test is under way, to the comparison
@@ -55,7 +55,7 @@ module dtof_self_test #(
 
   // The frame, and its verdict.
 
-  logic frame_q, busy_q, passed_q, ends_q, compare_q, equal;
+  logic frame_q, busy_q, passed_q, ends_q, waits_q, compare_q, equal;
 
   assign equal = (crc_i == expected_i);
 
@@ -65,6 +65,7 @@ module dtof_self_test #(
       busy_q <= 1'b0;
       passed_q <= 1'b0;
       ends_q <= 1'b0;
+      waits_q <= 1'b0;
       compare_q <= 1'b0;
     end else begin
       if (begin_i) begin
@@ -72,7 +73,8 @@ module dtof_self_test #(
       end
       busy_q <= (begin_i && chosen_i) || (busy_q && !compare_q && !abort_i);
       ends_q <= word_ends_i && busy_q && !abort_i;
-      compare_q <= ends_q && !abort_i;
+      waits_q <= ends_q && !abort_i;
+      compare_q <= waits_q && !abort_i;
       passed_q <= !clear_i && !(begin_i && chosen_i) && (passed_q || (compare_q && equal && !abort_i));
     end
   end

@@ -7,7 +7,7 @@
 // 2. abort_i ends the dropping at once; give_up_i (the source is dead) ends it after the last line of an acquisition that has begun.
 //
 // Latency: none; drops_o comes from a flip-flop, takes_o from two flip-flops and a gate.
-// Cost: 18 flip-flops, a decrementer and a comparator of 16 bits.
+// Cost: 19 flip-flops, a decrementer and a comparator of 16 bits.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -29,20 +29,25 @@ module dtof_settle #(
     output logic             takes_o    // a dropped acquisition is leaving: its lines are taken, whether the array is ready or not
 );
 
-  logic [WIDTH-1:0] left_q;  // acquisitions still to drop, including the one that is leaving
-  logic drops_q;             // left_q is not 0
+  logic [WIDTH-1:0] left_q;  // acquisitions still to drop, including the one that is leaving, and the one that ended in the last clock
+  logic ended_q;             // left_q is one too many: last_i comes late in its clock, so the counter follows a clock later
+  logic drops_q;             // acquisitions are left
+  logic only;                // one acquisition is left
   logic inside_q;            // an acquisition is leaving
 
+  assign only = (left_q == (ended_q ? WIDTH'(2) : WIDTH'(1)));
   assign drops_o = drops_q;
   assign takes_o = drops_q && inside_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       left_q <= '0;
+      ended_q <= 1'b0;
       drops_q <= 1'b0;
       inside_q <= 1'b0;
     end else begin
       inside_q <= (first_i || inside_q) && !last_i && !abort_i;
+      ended_q <= drops_q && last_i && !abort_i && !begin_i && !give_up_i;
       if (abort_i) begin
         left_q <= '0;
         drops_q <= 1'b0;
@@ -52,15 +57,19 @@ module dtof_settle #(
       end else if (give_up_i) begin
         left_q <= WIDTH'(takes_o);
         drops_q <= takes_o;
-      end else if (drops_q && last_i) begin
-        left_q <= left_q - 1'b1;
-        drops_q <= (left_q != WIDTH'(1));
+      end else begin
+        if (ended_q) begin
+          left_q <= left_q - 1'b1;
+        end
+        if (last_i && only) begin
+          drops_q <= 1'b0;
+        end
       end
     end
   end
 
   `DTOF_ASSERT(a_begin_between, !begin_i || !inside_q, "a frame begins inside an acquisition")
-  `DTOF_ASSERT(a_drops_what_is_left, drops_q == (left_q != '0), "drops_o differs from the number of acquisitions that are left")
+  `DTOF_ASSERT(a_drops_what_is_left, drops_q == (left_q != WIDTH'(ended_q)), "drops_o differs from the number of acquisitions that are left")
   `DTOF_ASSERT(a_give_up_waits, !give_up_i || !(first_i || last_i), "a line is taken in the clock in which the source is given up")
 
 endmodule

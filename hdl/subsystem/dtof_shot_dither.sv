@@ -16,7 +16,7 @@
 // Schedule: for a request in clock 0 with a delay of d units, shot_o is high in clock 2 + d * unit_i only, from a flip-flop.
 // Latency: 2 clocks without a delay.
 // Source: firing offsets against other lasers; what they achieve is in reports/hostile_scenes.md (other-laser-offsets).
-// Cost: 62 flip-flops and ACQ_WIDTH, 48 two-input XORs for the register's 16 steps, three counters.
+// Cost: 65 flip-flops and ACQ_WIDTH, 48 two-input XORs for the register's 16 steps, three counters.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -67,20 +67,26 @@ module dtof_shot_dither #(
   assign further = {last_bits, first_bits};
   assign seed = (seed_i == '0) ? STATE_WIDTH'(1) : seed_i;
 
-  // Needed acquisitions, and outstanding ones.
+  // Needed acquisitions, and outstanding ones. Requests, taken_i and give_up_i come late in their clock. So registers with many bits follow a clock
+  // later: the delay is loaded in every clock without a request, the state makes its steps in the clock after the request, and left_q changes in the
+  // clock after taken_i.
 
-  logic [ACQ_WIDTH-1:0] left_q;  // acquisitions that the array has not begun
+  logic [ACQ_WIDTH-1:0] left_q;  // acquisitions that the array has not begun, and the one that it began in the last clock
+  logic took_q;                  // the array began an acquisition in the last clock
+  logic ended_q;                 // the frame's need ended in the last clock
   logic owed_q;                  // a shot was fired, and its acquisition has not arrived
   logic rest_q;                  // the source is delivering the rest of an acquisition that an abort has ended
   logic waits_q;                 // a shot was requested and has not fired
+  logic drawn_q;                 // the state makes its steps: a shot was requested in the last clock
   logic shot_q;
   logic [BITS_WIDTH-1:0] bits_q;
   logic [UNIT_WIDTH-1:0] unit_q, clock_q;
   logic [UNITS_WIDTH-1:0] units_q, drawn;  // units_q: units left of the delay
-  logic ends, wanted, request, fires;
+  logic ends, left, wanted, request, fires;
 
   assign ends = abort_i || flush_i || give_up_i;
-  assign wanted = (left_q != '0) && !queued_i && !owed_q && !rest_q && !early_i && !arrives_i && !begin_i && !ends;
+  assign left = (left_q != ACQ_WIDTH'(took_q)) && !ended_q;
+  assign wanted = left && !queued_i && !owed_q && !rest_q && !early_i && !arrives_i && !begin_i && !ends;
   assign request = wanted && !waits_q;
   assign fires = wanted && waits_q && (units_q == '0);
   assign drawn = (unit_q == '0) ? '0 : state_q[UNITS_WIDTH-1:0] & ~({UNITS_WIDTH{1'b1}} << bits_q);
@@ -90,9 +96,12 @@ module dtof_shot_dither #(
       state_q <= STATE_WIDTH'(1);
       first_state_q <= STATE_WIDTH'(1);
       left_q <= '0;
+      took_q <= 1'b0;
+      ended_q <= 1'b0;
       owed_q <= 1'b0;
       rest_q <= 1'b0;
       waits_q <= 1'b0;
+      drawn_q <= 1'b0;
       shot_q <= 1'b0;
       bits_q <= '0;
       unit_q <= '0;
@@ -101,7 +110,7 @@ module dtof_shot_dither #(
     end else begin
       if (reseed_i) begin
         state_q <= seed;
-      end else if (request && bits_q != '0) begin
+      end else if (drawn_q && bits_q != '0) begin
         state_q <= further;
       end
       if (begin_i) begin
@@ -109,15 +118,18 @@ module dtof_shot_dither #(
         bits_q <= bits_i;
         unit_q <= unit_i;
       end
-      if (abort_i || give_up_i) begin
-        left_q <= '0;
-      end else if (begin_i) begin
+      took_q <= taken_i && left && !begin_i;
+      ended_q <= abort_i || give_up_i;
+      if (begin_i) begin
         left_q <= acquisitions_i;
-      end else if (taken_i && left_q != '0) begin
+      end else if (ended_q) begin
+        left_q <= '0;
+      end else if (took_q) begin
         left_q <= left_q - 1'b1;
       end
       waits_q <= wanted && !fires;
-      if (request) begin
+      drawn_q <= request && !reseed_i;
+      if (!waits_q) begin
         units_q <= drawn;
         clock_q <= unit_q - 1'b1;
       end else if (clock_q != '0) begin
@@ -136,7 +148,7 @@ module dtof_shot_dither #(
   assign first_state_o = first_state_q;
 
   // taken_i comes only while queued_i is high, so the need cannot end between the decision and the shot.
-  `DTOF_ASSERT(a_needed, !shot_q || left_q != '0, "a shot is fired for an acquisition that the frame does not need")
+  `DTOF_ASSERT(a_needed, !shot_q || left_q != ACQ_WIDTH'(took_q), "a shot is fired for an acquisition that the frame does not need")
 
 endmodule
 

@@ -75,7 +75,7 @@ module bench;
 
   always @(negedge clk) begin
     if (rst_n && (^{pready, pslverr, irq, shot, sram_cfg, line_ready, result_valid}) === 1'bx) fail("an output is unknown");
-    if (rst_n && penable && !pwrite && (^prdata) === 1'bx) fail("a register is unknown");
+    if (rst_n && penable && pready && !pwrite && (^prdata) === 1'bx) fail("a register is unknown");
     if (is_off && (result_valid || shot)) fail("a result or a shot while the array is off");
     if (is_off) off_clocks = off_clocks + 1;
     if (rst_n && result_valid) begin
@@ -90,6 +90,8 @@ module bench;
     #1 {psel, pwrite, paddr, pwdata} = {1'b1, 1'b1, offset, data};
     @(posedge clk);
     #1 penable = 1'b1;
+    @(negedge clk);
+    while (!pready) @(negedge clk);
     @(posedge clk);
     #1 {psel, penable} = 2'b00;
   endtask
@@ -100,6 +102,7 @@ module bench;
     @(posedge clk);
     #1 penable = 1'b1;
     @(negedge clk);
+    while (!pready) @(negedge clk);
     data = prdata;
     @(posedge clk);
     #1 {psel, penable} = 2'b00;

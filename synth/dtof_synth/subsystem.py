@@ -18,7 +18,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import astuple, dataclass
 from pathlib import Path
 
-from . import array_stand_in, clock_gating, endpoints, floorplan, netlist, run, spef, sram_kit, timing, tools, verilog
+from . import array_stand_in, clock_gating, endpoints, floorplan, loads, netlist, run, spef, sram_kit, timing, tools, verilog
 from .array_stand_in import MODES, Ports
 from .canonical import canonical
 from .configuration import Configuration, engine_memories, memories
@@ -38,8 +38,10 @@ CORNERS = ("slow", "typical", "fast")
 EFFORTS = (run.LAYOUT_EFFORT, run.EFFORTS[-1])  # the first that closes with margins is taken, else the one that misses by least
 HOLD_ROUNDS = 4
 RESIZE_ROUNDS = 3
+EDGE_ROUNDS = 4
 _INSTANCE = re.compile(r"^  cell (\S+) (\S+)$", re.MULTILINE)
 _END = re.compile(r"^(\S+) \(\S+\) +\S+ +\S+ +(-?[\d.]+) \((?:MET|VIOLATED)\)$", re.MULTILINE)
+_SLOW_EDGE = re.compile(r"^(\S+/\S+) .*\(VIOLATED\)$", re.MULTILINE)
 _ASKED = re.compile(r"^DTOF_ASKED (\S+)\n\S+ ([01X])$", re.MULTILINE)
 
 
@@ -87,6 +89,8 @@ class Subsystem:
     slacks: dict[tuple[str, str], Slacks]  # by corner and one of MODES
     ends: Ends
     late: dict[str, float]  # least setup slack with margins of the ends in each module, slow corner; with the array's
+    slow_edges: dict[str, int]  # by corner: pins beyond the library's max_transition
+    overloaded: list[str]  # drivers inside modules with more load than max_capacitance, or with too many inputs
     target_mhz: float
 
     @property
@@ -300,6 +304,12 @@ def timed_ends(output: str, kind: str) -> tuple[dict[str, float], dict[str, floa
     return data, resets
 
 
+def pins_of_slow_edges(output: str) -> list[str]:
+    """Pins in the output of synth/subsystem/edges.tcl."""
+    listing = given(re.search(r"^DTOF_EDGES\n(.*?)^DTOF_END$", output, re.MULTILINE | re.DOTALL), "OpenSTA: no list of transitions")
+    return _SLOW_EDGE.findall(listing[1])
+
+
 def judge_ends(name: str, counted: tuple[int, int], unchecked: dict[str, list[str]], output: str, ports: Ports) -> Ends:
     """Compares the ends in the netlist with those that OpenSTA timed. `counted`: from count_ends; `unchecked`: warnings of check_setup. FlowError
     if an end is not timed and is neither constant nor part of the side band, for every other warning, and if pins of the array are not timed."""
@@ -353,6 +363,11 @@ class _Timed:
         return timing.Netlist(f"{self.configuration.name}, {TOP}, {corner} corner", self.folder / "timing.v", Path(),
                               [library.path, self.folder / f"array_{corner}_{mode}.lib"], library.wire_load, TOP)
 
+    def _settings(self, files: timing.Netlist) -> dict[str, tools.Setting]:
+        return {"liberty_files": files.liberty_files, "netlist": files.verilog, "top": TOP, "wire_load": files.wire_load,
+                "period": f"{1e3 / self.technology.target_mhz:.6f}", "constraints": self.constraints,
+                "margins": self.technology.root / "constraints" / "margins.sdc", "slew": f"{FO4_NS:.4f}", "load": f"{10 * CINV_FF:.4f}"}
+
     @property
     def constraints(self) -> Path:
         return self.technology.root / "constraints" / "subsystem" / "dtof_subsystem.sdc"
@@ -362,6 +377,36 @@ class _Timed:
         return timing.measure(self.files(corner, mode), self.technology.root, self.technology.target_mhz,
                               self.folder / f"sta_{corner}_{'_'.join(steps)}.log", steps,
                               {"constraints": self.constraints, "wires": "", **settings})
+
+    def slow_edges(self, corner: str) -> list[str]:
+        """Pins whose transition is beyond the limit, with margins."""
+        files = self.files(corner, "margins")
+        settings = self.folder / f"edges_{corner}.tcl"
+        tools.write_settings(settings, self._settings(files))
+        return pins_of_slow_edges(tools.run_sta(self.technology.root / "synth" / "subsystem" / "edges.tcl", settings,
+                                                self.folder / f"edges_{corner}.log", files.name))
+
+    def sharpen_edges(self) -> None:
+        """Cells that drive slow edges get more drive."""
+        family = {kind: kinds for kinds in self.technology.slow.drives for kind in kinds}
+        for _ in range(EDGE_ROUNDS):
+            stronger = []
+            for pin in self.slow_edges("slow"):
+                kind, name, port = netlist.local_pin(self.design, pin)
+                cell = (netlist.modules(self.design)[kind] if kind else netlist.top(self.design))["cells"][name]
+                kinds = family.get(cell["type"], [cell["type"]])
+                if cell["port_directions"].get(port) == "output" and cell["type"] != kinds[-1]:
+                    stronger.append((kind or netlist.TOP, name, kinds[kinds.index(cell["type"]) + 1]))
+            if not stronger:
+                return
+            netlist.resize(self.design, self.technology.slow, stronger)
+            self.write()
+
+    def overloaded(self) -> list[str]:
+        library = self.technology.slow
+        kinds = [name for name, module in netlist.modules(self.design).items() if module["cells"]]
+        pin_load = floorplan.pin_load(library, 0.0)
+        return [str(load) for kind in kinds if kind != TOP for load in loads.of_block(self.design, kind, library, pin_load) if load.is_too_much]
 
     def slacks(self, corner: str, mode: str) -> Slacks:
         if mode == "margins":
@@ -378,9 +423,7 @@ class _Timed:
         report = self.time("slow", "nominal", "check")
         settings = self.folder / "ends.tcl"
         tools.write_settings(settings, {
-            "liberty_files": files.liberty_files, "netlist": files.verilog, "top": TOP, "wire_load": files.wire_load,
-            "period": f"{1e3 / self.technology.target_mhz:.6f}", "constraints": self.constraints,
-            "margins": self.technology.root / "constraints" / "margins.sdc", "slew": f"{FO4_NS:.4f}", "load": f"{10 * CINV_FF:.4f}",
+            **self._settings(files),
             "asked": [pin for pins in report.unchecked.values() for pin in pins if not endpoints.SIDE_BAND.fullmatch(pin)]})
         output = tools.run_sta(self.technology.root / "synth" / "subsystem" / "ends.tcl", settings, self.folder / "ends.log", files.name)
         library, ports = self.technology.slow, self.ports["slow"]
@@ -477,11 +520,13 @@ def measure(result: Result, technology: Technology, runs: Path, folder: Path) ->
         if attempts[-1][1].setup >= 0:
             break
     timed, _ = max(attempts, key=lambda attempt: min(attempt[1].setup, 0.0))
+    timed.sharpen_edges()
     timed.fix_hold()
     timed.close_setup()
     ends, late = timed.ends()
     slacks = {(corner, mode): timed.slacks(corner, mode) for corner in CORNERS for mode in MODES}
-    return Subsystem(configuration, timed.parts(), result.total_mm2, slacks, ends, late, technology.target_mhz)
+    slow_edges = {corner: len(timed.slow_edges(corner)) for corner in CORNERS}
+    return Subsystem(configuration, timed.parts(), result.total_mm2, slacks, ends, late, slow_edges, timed.overloaded(), technology.target_mhz)
 
 
 def measure_all(results: list[Result], technology: Technology, build: Path, workers: int, progress: Callable[[str], None]) -> list[Subsystem]:

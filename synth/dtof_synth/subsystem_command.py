@@ -18,8 +18,8 @@ def _say(text: str) -> None:
     print(text, flush=True)
 
 
-def _run(names: list[str], jobs: int) -> None:
-    """Measures the subsystems. Without names it also writes the report."""
+def _run(names: list[str], jobs: int) -> bool:
+    """Measures the subsystems; True if every goal is met. Without names it also writes the report."""
     started = time.monotonic()
     named = configuration.load(ROOT / "configurations.toml")
     unknown = [name for name in names if name not in named]
@@ -31,7 +31,8 @@ def _run(names: list[str], jobs: int) -> None:
     technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
     results = batch.run_all([batch.Job(item) for item in chosen], technology, build / "runs", jobs, _say)
     found = subsystem.measure_all([results[item.name] for item in chosen], technology, build, jobs, _say)
-    for goal in subsystem_report.goals(found):
+    goals = subsystem_report.goals(found)
+    for goal in goals:
         _say(f"{'met' if goal.met else 'missed'}: {goal.text}: {goal.value}")
     if not names:
         (ROOT / "reports" / "subsystem.md").write_text(subsystem_report.report(found, digest), encoding="utf-8")
@@ -39,20 +40,22 @@ def _run(names: list[str], jobs: int) -> None:
         report_inputs.record("subsystem")
         _say("reports/subsystem.md, reports/subsystem.csv written")
     _say(f"{len(found)} subsystems in {time.monotonic() - started:.0f} s")
+    return all(goal.met for goal in goals)
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description="Area and timing of dtof_subsystem around arrays.")
     parser.add_argument("configuration", nargs="*", help="names from configurations.toml, without renewing reports/; none: "
                         f"{', '.join(subsystem.CONFIGURATIONS)}")
+    parser.add_argument("--strict", action="store_true", help="fail if a goal is missed")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="subsystems at the same time")
     arguments = parser.parse_args()
     try:
-        _run(arguments.configuration, max(arguments.jobs, 1))
+        met = _run(arguments.configuration, max(arguments.jobs, 1))
     except FlowError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return 130
-    return 0
+    return 1 if arguments.strict and not met else 0

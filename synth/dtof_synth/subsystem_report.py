@@ -24,7 +24,7 @@ def _table(header: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) 
 
 
 def goals(found: Iterable[Subsystem]) -> list[Goal]:
-    """The line buffer's share of the array, and no negative slack, without and with margins."""
+    """The line buffer's share of the array, no negative slack, without and with margins, and no edge or load beyond its limit."""
     judged = []
     for one in found:
         title = one.configuration.title
@@ -35,6 +35,9 @@ def goals(found: Iterable[Subsystem]) -> list[Goal]:
             worst = one.worst(mode)
             judged.append(Goal(f"{title}: closes {one.target_mhz:g} MHz in all corners" + (" with margins" if mode == "margins" else ""),
                                f"worst slack {worst:+.3f} ns", worst >= 0))
+        edges, loads = sum(one.slow_edges.values()), len(one.overloaded)
+        judged.append(Goal(f"{title}: no edge and no load beyond its limit", f"{edges} edges, {loads} loads" + (
+            f", the first: {one.overloaded[0]}" if loads else ""), edges + loads == 0))
     return judged
 
 
@@ -126,6 +129,9 @@ def report(found: Sequence[Subsystem], digest: str) -> str:
         "In the timed netlist a cell stands for the array. Its times are those of the array's own netlist: OpenSTA measures in each corner, "
         "without and with margins, how long before the clock's edge each input must be stable, and when each output changes. The edges at "
         "inputs and the loads at outputs are those of margins.sdc. So paths from the subsystem to the array and back are timed.", "",
+        "Edges: OpenSTA compares the transition at every pin with the library's max_transition, in three corners. Loads: those of the nets "
+        "inside modules, with the wire load, compared with max_capacitance and with a number of inputs; nets between modules are not "
+        "compared.", "",
         "## Ends of paths", "",
         "Ends: pins with a setup time, the array's included, and output ports. OpenSTA must time every end for setup and hold, except those "
         "on which it finds a constant, and the side band of the SRAMs. Its check_setup must find no register without a clock, no port without "

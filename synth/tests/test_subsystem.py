@@ -31,8 +31,10 @@ def design() -> dict:
                   "scan_mode_i": ("input", 6), "q_o": ("output", 14), "sram_cfg_o": ("output", 13)},
                  {"r": cell("DFFR_X1", {"CK": 2, "D": 10, "RN": 3}, {"Q": 11}), "u_array_here": array,
                   "u_child": cell("child", {"clk_i": 2, "d_i": 12}, {"q_o": 14}),
+                  "u_array_reset": cell("array_reset", {"rst_ni": 3}, {"array_rst_no": 21}),  # which the constraints name
                   "constant": cell("DFF_X1", {"CK": 2, "D": 20}, {"Q": 15})}, top=True)
-    return {"modules": {"dtof_subsystem": top, "child": child, "dtof_array": {"attributes": {}, "ports": {}, "cells": {}}}}
+    array_reset = module({"rst_ni": ("input", 2), "array_rst_no": ("output", 3)}, {"b": cell("BUF_X1", {"A": 2}, {"Y": 3})})
+    return {"modules": {"dtof_subsystem": top, "child": child, "array_reset": array_reset, "dtof_array": {"attributes": {}, "ports": {}, "cells": {}}}}
 
 
 class Faults(unittest.TestCase):
@@ -155,14 +157,15 @@ class Hierarchy(unittest.TestCase):
         self.assertEqual([one["type"] for one in top["cells"].values()], ["m", "m__2", "BUF"])
 
 
-def around(name: str, line_buffer_um2: float = 20000.0, setup: float = 0.1) -> Subsystem:
+def around(name: str, line_buffer_um2: float = 20000.0, setup: float = 0.1, edges: int = 0, overloaded: tuple[str, ...] = ()) -> Subsystem:
     """An array of 1 mm2, and a subsystem of the line buffer, two watchdogs of 200 um2 each, and 800 um2 of its own."""
     parts = [Part("dtof_line_buffer", 1, replace(NONE, cells=100, flip_flops=40, area=line_buffer_um2)),
              Part("dtof_subsystem", 1, replace(NONE, cells=8, area=800.0)), Part("dtof_watchdog", 2, replace(NONE, cells=4, area=400.0))]
     slacks = {(corner, mode): Slacks(setup if (corner, mode) == ("slow", "margins") else 0.5, 0.2, 0.3, "from", "to")
               for corner in subsystem.CORNERS for mode in MODES}
     return Subsystem(result(name).configuration, parts, 1.0, slacks, Ends(50, 46, 3, 1, 12, 7, 30),
-                     {"dtof_line_buffer": 0.1, "dtof_watchdog": setup, "array_stand_in": 0.4}, 330.0)
+                     {"dtof_line_buffer": 0.1, "dtof_watchdog": setup, "array_stand_in": 0.4},
+                     {"slow": edges, "typical": 0, "fast": 0}, list(overloaded), 330.0)
 
 
 class Report(unittest.TestCase):
@@ -189,6 +192,18 @@ class Report(unittest.TestCase):
                     "| poolPointer: closes 330 MHz in all corners | worst slack +0.200 ns | yes |",
                     "| poolPointer: closes 330 MHz in all corners with margins | worst slack -0.250 ns | **no** |"):
             self.assertIn(row, text)
+
+    def test_edges_and_loads_beyond_their_limits_are_goals_that_fail(self) -> None:
+        text = subsystem_report.report([around("ezpointer"), around("poolpointer", edges=2, overloaded=("u drives 9.0 fF of 8.0", "v"))], "0" * 64)
+        self.assertIn("| ezPointer: no edge and no load beyond its limit | 0 edges, 0 loads | yes |", text)
+        self.assertIn("| poolPointer: no edge and no load beyond its limit | 2 edges, 2 loads, the first: u drives 9.0 fF of 8.0 | **no** |", text)
+
+    def test_pins_with_slow_edges_are_found(self) -> None:
+        listing = "DTOF_EDGES\nmax_transition\nu/A 0.4 0.5 -0.1 (VIOLATED)\nm/v/B[1]    0.4 0.6 -0.2 (VIOLATED)\n" \
+            "w/C 0.4 0.3 0.1 (MET)\nDTOF_END\nx/D 1 2 -1 (VIOLATED)\n"
+        self.assertEqual(subsystem.pins_of_slow_edges(listing), ["u/A", "m/v/B[1]"])
+        with self.assertRaises(FlowError):
+            subsystem.pins_of_slow_edges("DTOF_END\n")
 
     def test_the_page_says_where_no_gate_was_resized(self) -> None:
         found = [around("ezpointer", setup=-0.4), around("poolpointer", setup=-0.5)]

@@ -92,7 +92,6 @@ void StreamReference::expect_rest(bool here) const {
 }
 
 void StreamReference::wait(const Waits& now) {
-  const bool sink_refuses = now.sink_refuses;
   const bool aborts = now.aborts;
   if (now.array_rests) {
     expect_rest(!acquisitions_.empty() && acquisitions_.front().lines.size() > index_);
@@ -116,13 +115,15 @@ void StreamReference::wait(const Waits& now) {
     draining_ = true;
   }
   expires_ = false;
-  waited_ = watchdog_ > 0 && starved_ && running_ && !(now.line_stored && !hunting_) ? waited_ + 1 : 0;
+  waited_ = watchdog_ > 0 && waits_ ? waited_ + 1 : 0;
+  waits_ = starved_ && running_ && !(now.line_stored && !hunting_);
   if (watchdog_ > 0 && waited_ >= watchdog_) {
     expires_ = true;
     waited_ = 0;
   }
   events_.stalled = events_.stalled || stalls_;
-  refused_ = watchdog_ > 0 && sink_refuses ? refused_ + 1 : 0;
+  refused_ = watchdog_ > 0 && sink_refused_ ? refused_ + 1 : 0;
+  sink_refused_ = now.sink_refuses;
   stalls_ = watchdog_ > 0 && refused_ >= watchdog_;
   refused_ = stalls_ ? 0 : refused_;
 }

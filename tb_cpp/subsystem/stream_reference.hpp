@@ -129,6 +129,8 @@ class StreamReference {
   bool expires_ = false;
   bool gave_up_ = false;
   bool stalls_ = false;
+  bool waits_ = false;         // the watchdog's wait in the last clock; it counts a clock later
+  bool sink_refused_ = false;  // likewise
   std::uint32_t waited_ = 0;
   std::uint32_t withheld_ = 0;  // clocks in which an acquisition was available and not offered
   std::uint32_t refused_ = 0;
