@@ -96,6 +96,17 @@ module dtof_stream_output #(
     word[dtof_registers_pkg::RESULT_RAW_LSB] = raw_i;
   end
 
+  // Bits that a word of this configuration can set. The others are constants at the port, not registers that hold 0.
+  localparam logic [WORD_WIDTH-1:0] ONE = WORD_WIDTH'(1);
+  localparam logic [WORD_WIDTH-1:0] USED = (((ONE << POSITION_WIDTH) - ONE) << dtof_registers_pkg::RESULT_POSITION_LSB)
+      | (((ONE << CONFIDENCE_WIDTH) - ONE) << dtof_registers_pkg::RESULT_CONFIDENCE_LSB)
+      | (((ONE << ROW_WIDTH) - ONE) << dtof_registers_pkg::RESULT_ROW_LSB)
+      | (((ONE << COLUMN_WIDTH) - ONE) << dtof_registers_pkg::RESULT_COLUMN_LSB)
+      | (ONE << dtof_registers_pkg::RESULT_VALID_LSB) | (ONE << dtof_registers_pkg::RESULT_WEAK_LSB)
+      | (ONE << dtof_registers_pkg::RESULT_EMPTY_LSB) | (ONE << dtof_registers_pkg::RESULT_MASKED_LSB)
+      | (ONE << dtof_registers_pkg::RESULT_SATURATED_LSB) | (ONE << dtof_registers_pkg::RESULT_SECOND_LSB)
+      | (ONE << dtof_registers_pkg::RESULT_RAW_LSB) | (ONE << dtof_registers_pkg::RESULT_ABORTED_LSB);
+
   // The word at the port, and a second word for the clock before result_tready_o follows a sink that is not ready.
 
   logic valid_q, last_q, first_q, short_q, behind_q, behind_last_q, behind_first_q, behind_short_q, begins_q;
@@ -163,7 +174,7 @@ module dtof_stream_output #(
 
   assign result_tready_o = !behind_q && !cut_i;
   assign m_axis_tvalid_o = valid_q;
-  assign m_axis_tdata_o = word_q;
+  assign m_axis_tdata_o = word_q & USED;
   assign m_axis_tuser_o = first_q;
   assign m_axis_tlast_o = last_q;
   assign m_axis_short_o = short_q;
