@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Maps a small dtof_subsystem of every read-out to four FPGA families with Yosys and writes reports/fpga_check.md.
+"""Maps a small dtof_subsystem of every read-out to four FPGA families with Yosys, and arrays of 32 x 32 and 64 x 64 pixels to two, and
+writes reports/fpga_check.md.
 
 The memories are those of hdl/technology/fpga, which ask for block RAM: a family that cannot make block RAM of one of them
 stops Yosys. That none became look-up tables is counted, too. --check says whether it holds, and leaves the report alone.
@@ -17,6 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+import fpga_parts
 from dtof_synth import program, readouts, statistics
 from dtof_synth.errors import FlowError
 
@@ -37,15 +39,16 @@ class Family:
     table_ram: str  # memory in look-up tables
     register: str
     tables: dict[str, int]
+    units: dict[str, int]  # block RAMs of 18 Kbit in a cell
 
 
 FAMILIES = {
-    "ice40": Family("iCE40", r"SB_RAM40_4K\w*", r"", r"SB_DFF\w*", {"SB_LUT4": 1}),
-    "ecp5": Family("ECP5", r"DP16KD|PDPW16KD", r"TRELLIS_DPR16X4", r"TRELLIS_FF", {"LUT4": 1, "CCU2C": 2}),
+    "ice40": Family("iCE40", r"SB_RAM40_4K\w*", r"", r"SB_DFF\w*", {"SB_LUT4": 1}, {}),
+    "ecp5": Family("ECP5", r"DP16KD|PDPW16KD", r"TRELLIS_DPR16X4", r"TRELLIS_FF", {"LUT4": 1, "CCU2C": 2}, {"DP16KD": 1, "PDPW16KD": 1}),
     "gowin": Family("Gowin", r"(SDP|DP|SP)(X9)?B?", r"RAM16\w+", r"DFF\w*",
-                    {"LUT1": 1, "LUT2": 1, "LUT3": 1, "LUT4": 1, "ALU": 1}),
+                    {"LUT1": 1, "LUT2": 1, "LUT3": 1, "LUT4": 1, "ALU": 1}, {}),
     "xilinx": Family("Xilinx 7", r"RAMB(18|36)E1", r"RAM\d+(M|X\d+[DS])\w*", r"FD[CPRS]E\w*",
-                     {f"LUT{inputs}": 1 for inputs in range(1, 7)}),
+                     {f"LUT{inputs}": 1 for inputs in range(1, 7)}, {"RAMB18E1": 1, "RAMB36E1": 2}),
 }  # fmt: skip
 
 
@@ -98,7 +101,8 @@ def counted(family: Family, text: str) -> Counts:
     return Counts(total(family.block_ram), tables, total(family.register), total(family.table_ram))
 
 
-def mapped(target: str, parameters: dict[str, int], technology: Path) -> Counts:
+def mapped(target: str, parameters: dict[str, int], technology: Path) -> str:
+    """What Yosys's stat says."""
     settings = " ".join(f"-set {name} {value}" for name, value in parameters.items())
     files = source_files(technology)
     script = (f"read_verilog -sv -DSYNTHESIS -Icommon {' '.join(files)}; "
@@ -106,17 +110,22 @@ def mapped(target: str, parameters: dict[str, int], technology: Path) -> Counts:
     texts = [(HDL / file).read_bytes() for file in files] + [file.read_bytes() for file in sorted(HDL.glob("common/*.svh"))]
     kept = BUILD / f"{hashlib.sha256(b'|'.join([script.encode(), *texts])).hexdigest()[:24]}.txt"
     if kept.exists():
-        return counted(FAMILIES[target], kept.read_text())
+        return kept.read_text()
     result = subprocess.run(["yosys", "-Q", "-T", "-p", script], cwd=HDL, text=True, stdout=subprocess.PIPE,
                             stderr=subprocess.STDOUT, check=False)  # fmt: skip
     if result.returncode != 0:
         errors = [line for line in result.stdout.splitlines() if line.startswith("ERROR")]
         raise FlowError(errors[-1] if errors else "Yosys failed")
     text = statistics.last(result.stdout)
-    counts = counted(FAMILIES[target], text)
     BUILD.mkdir(parents=True, exist_ok=True)
     kept.write_text(text)
-    return counts
+    return text
+
+
+def needed(family: Family, text: str) -> fpga_parts.Need:
+    cells = statistics.cells(text)
+    counts = counted(family, text)
+    return fpga_parts.Need(counts.tables, counts.registers, sum(units * cells.get(kind, 0) for kind, units in family.units.items()))
 
 
 def problem(expected: list[str], counts: Counts) -> str:
@@ -128,7 +137,7 @@ def problem(expected: list[str], counts: Counts) -> str:
     return ""
 
 
-def report(rows: dict[str, dict[str, Counts]], expected: dict[str, list[str]], titles: dict[str, str]) -> str:
+def report(rows: dict[str, dict[str, Counts]], expected: dict[str, list[str]], titles: dict[str, str], arrays: list[str]) -> str:
     size = f"{SIZE['SRAM_NUM']} columns of {SIZE['PIXELS_PER_SRAM']} pixels"
     lines = [
         "# FPGA",
@@ -147,7 +156,20 @@ def report(rows: dict[str, dict[str, Counts]], expected: dict[str, list[str]], t
         figures = " | ".join(f"{by_family[target].block_rams} | {by_family[target].tables:,} | "
                              f"{by_family[target].registers:,}" for target in FAMILIES)
         lines.append(f"| {titles[name]} | {len(expected[name])} | {figures} |")
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, "", *arrays])
+
+
+def arrays(technology: Path, titles: dict[str, str], jobs: int) -> list[str]:
+    """The report's section of larger arrays."""
+    known = subsystems()
+    with ThreadPoolExecutor(max_workers=jobs) as pool:
+        runs = {(name, size, family): pool.submit(mapped, family, known[name][1] | {"SRAM_NUM": size, "PIXELS_PER_SRAM": size}, technology)
+                for family in fpga_parts.PARTS for size in fpga_parts.SIZES for name in fpga_parts.READOUTS}
+        needs = {}
+        for (name, size, family), run in runs.items():
+            needs[name, size, family] = needed(FAMILIES[family], run.result())
+            print(f"[{len(needs)}/{len(runs)}] {name}, {size} x {size}, {FAMILIES[family].title}", flush=True)
+    return fpga_parts.section(needs, titles, {family: FAMILIES[family].title for family in fpga_parts.PARTS})
 
 
 def main() -> int:
@@ -172,7 +194,7 @@ def main() -> int:
                 for name, (_, parameters) in chosen.items() for target in arguments.families}
         for (name, target), run in runs.items():
             try:
-                rows[name][target] = run.result()
+                rows[name][target] = counted(FAMILIES[target], run.result())
                 sentence = problem(expected[name], rows[name][target])
             except FlowError as error:
                 sentence = str(error)
@@ -184,7 +206,8 @@ def main() -> int:
         return 1
     print(f"fpga-check: all memories of {len(chosen)} subsystems become block RAM ({', '.join(arguments.families)})")
     if not arguments.check and chosen.keys() == known.keys() and set(arguments.families) == FAMILIES.keys():
-        REPORT.write_text(report(rows, expected, {name: title for name, (title, _) in chosen.items()}), encoding="utf-8")
+        titles = {name: title for name, (title, _) in chosen.items()}
+        REPORT.write_text(report(rows, expected, titles, arrays(arguments.technology.resolve(), titles, arguments.jobs)), encoding="utf-8")
         print(f"wrote {REPORT.relative_to(ROOT)}")
     return 0
 
