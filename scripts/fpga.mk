@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# make fpga-check     a small dtof_subsystem of every read-out on four FPGA families, by Yosys: block RAMs, look-up tables,
-#                     flip-flops in reports/fpga_check.md; fails if a memory does not become block RAM (20 minutes)
+# make fpga-check     a small dtof_subsystem of every read-out on four FPGA families, and arrays of 32 x 32 and 64 x 64 pixels on two, by Yosys:
+#                     block RAMs, look-up tables, flip-flops in reports/fpga_check.md; fails if a memory does not become block RAM (40 minutes)
 #                     FPGA="ezpointer --families ecp5"  some of them (no report)
 # make fpga           the demonstrator of fpga for an iCE40 HX8K with hisPointer and with poolPointer lean, from RTL to the
 #                     bitstreams in build/fpga/; their netlists simulated, depths compared with the models'; reports/fpga.md (minutes)

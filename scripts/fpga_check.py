@@ -106,7 +106,7 @@ def mapped(target: str, parameters: dict[str, int], technology: Path) -> str:
     settings = " ".join(f"-set {name} {value}" for name, value in parameters.items())
     files = source_files(technology)
     script = (f"read_verilog -sv -DSYNTHESIS -Icommon {' '.join(files)}; "
-              f"chparam {settings} {TOP}; synth_{target} -top {TOP}; tee -o /dev/stdout stat")  # fmt: skip
+              f"chparam {settings} {TOP}; synth_{target} -top {TOP}; stat")  # fmt: skip
     texts = [(HDL / file).read_bytes() for file in files] + [file.read_bytes() for file in sorted(HDL.glob("common/*.svh"))]
     kept = BUILD / f"{hashlib.sha256(b'|'.join([script.encode(), *texts])).hexdigest()[:24]}.txt"
     if kept.exists():
