@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dtof/io/atomic_file.hpp"
 #include "tests/io/io_test_support.hpp"
 
 namespace dtof {

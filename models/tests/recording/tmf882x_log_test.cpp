@@ -99,8 +99,8 @@ TEST(Tmf882xLog, AResultHasTheDistancesOfTheCaptureBeforeIt) {
   const auto [cube, description] =
       read(capture(0) + result(0, 500) + capture(1) + result(1) + capture(2) + result(2, 800).substr(0, 60));
   EXPECT_EQ(description, "ams TMF8820, 3 captures of 9 zones");
-  EXPECT_EQ(cube.true_distance[0], 0.5);
-  EXPECT_EQ(cube.true_distance[3 * 8], 0.508);
+  EXPECT_DOUBLE_EQ(cube.true_distance[0], 0.5);
+  EXPECT_DOUBLE_EQ(cube.true_distance[3 * 8], 0.508);
   EXPECT_THAT(cube.true_distance[1], IsNan());  // 0 is no object
   EXPECT_THAT(cube.true_distance[2], IsNan());  // the recording ended in this line
 }
@@ -128,8 +128,8 @@ TEST(Tmf882xLog, TwoCapturesOfAResultAreOneColumn) {
   EXPECT_EQ(cube.pixel(0, 7)[0], 8);
   EXPECT_EQ(cube.pixel(0, 8)[0], 11);
   EXPECT_EQ(cube.pixel(1, 15)[0], 48);
-  EXPECT_EQ(cube.true_distance[2 * 7], 1.007);
-  EXPECT_EQ(cube.true_distance[2 * 8], 1.009);  // the second capture's begin after nine zones
+  EXPECT_DOUBLE_EQ(cube.true_distance[2 * 7], 1.007);
+  EXPECT_DOUBLE_EQ(cube.true_distance[2 * 8], 1.009);  // the second capture's begin after nine zones
   EXPECT_THAT(cube.true_distance[1], IsNan());
   // A last channel that is not empty: 3 x 6.
   const Read more = read(text + zones(1, 5) + zones(2) + result(10), {.bin_width_s = 2.6e-10});
@@ -164,9 +164,9 @@ TEST(Tmf882xLog, FourResultsAreAFrameOfEightByEight) {
   EXPECT_EQ(cube.pixel(0, 6)[0], 41);   // the third one
   EXPECT_EQ(cube.pixel(7, 0)[0], 78);   // the last zone of all
   EXPECT_EQ(cube.pixel(15, 0)[0], 78);  // the second frame
-  EXPECT_EQ(cube.true_distance[7 * 16], 1.0);
-  EXPECT_EQ(cube.true_distance[7 * 16 + 1], 1.009);
-  EXPECT_EQ(cube.true_distance[6 * 16 + 8], 1.2);
+  EXPECT_DOUBLE_EQ(cube.true_distance[7 * 16], 1.0);
+  EXPECT_DOUBLE_EQ(cube.true_distance[7 * 16 + 1], 1.009);
+  EXPECT_DOUBLE_EQ(cube.true_distance[6 * 16 + 8], 1.2);
 }
 
 TEST(Tmf882xLog, FramesWithoutAllQuartersAreLeftOut) {

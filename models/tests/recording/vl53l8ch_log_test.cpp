@@ -76,9 +76,9 @@ TEST(Vl53l8chLog, FramesOfTheEvaluationSoftwareStandSideBySide) {
   EXPECT_EQ(cube.pixel(1, 0)[0], 2.5);
   EXPECT_EQ(cube.pixel(0, 1)[0], 3.5);
   EXPECT_EQ(cube.pixel(3, 1)[1], 18.5);
-  EXPECT_EQ(cube.true_distance[0], 0.10525);
+  EXPECT_DOUBLE_EQ(cube.true_distance[0], 0.10525);
   EXPECT_THAT(cube.true_distance[1], IsNan());  // not valid
-  EXPECT_EQ(cube.true_distance[5], 0.11025);
+  EXPECT_DOUBLE_EQ(cube.true_distance[5], 0.11025);
 }
 
 TEST(Vl53l8chLog, NegativeBinsAreZeroAndFramesWithoutHistogramsAreLeftOut) {
