@@ -117,7 +117,8 @@ void add_convert_command(CLI::App& app, const std::string& command_line) {
       ->check(above_zero())
       ->capture_default_str();
   command->add_flag("--text", options->conversion.text, ".ply, .pcd: numbers as text");
-  command->add_option("--bin-width", options->bin_width_ps, "histograms in arrays: width of a bin in ps")
+  command
+      ->add_option("--bin-width", options->bin_width_ps, "histograms of arrays, logs: width of a bin in ps")
       ->check(above_zero());
   command->add_option("--variable", recording.variable, "MAT: name of the variable")->capture_default_str();
   command->add_option("--tick", options->tick_ps, "photon times: duration of a tick in ps")

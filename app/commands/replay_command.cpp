@@ -264,8 +264,8 @@ void check_recording_options(const CLI::App& command, const std::string& format)
       refuse_without_effect(command, option, "only a TDC stream (CSV) does not know its array");
     }
   }
-  if (format != "npy" && format != "npz" && format != "mat" && format != "hdf5") {
-    refuse_without_effect(command, "--bin-width", "only arrays (NPY, NPZ, MAT, HDF5) do not know it");
+  if (format == "csv" || format == "picoquant" || format == "photon-hdf5" || format == "tmf8829") {
+    refuse_without_effect(command, "--bin-width", "only arrays, TMF8820 and VL53L8CH do not know it");
   }
   if (format != "mat" && format != "hdf5") {
     for (const char* option : {"--tick", "--variable"}) {
@@ -442,10 +442,10 @@ void run_replay_command(const ReplayOptions& options, RecordingFile file, JsonRe
 void add_replay_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<ReplayOptions>();
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand("replay",
-                                         "Reads out recorded data: TDC streams (CSV), histograms (NPY, NPZ, "
-                                         "HDF5, MAT, TMF8820, TMF8829), photon "
-                                         "times (MAT), time tags (PTU, HT3, Photon-HDF5)");
+  CLI::App* command = app.add_subcommand(
+      "replay",
+      "Reads out recorded data: TDC streams (CSV), histograms (NPY, NPZ, HDF5, MAT, TMF8820, TMF8821, "
+      "TMF8828, TMF8829, VL53L8CH), photon times (MAT), time tags (PTU, HT3, Photon-HDF5)");
   command
       ->add_option("file", options->recording.file,
                    "recording; an array of an archive is file.npz:name, file.h5:/group/name or file.mat:name")
@@ -471,7 +471,8 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("--t-int", options->t_int_ns, "T_int in ns; T_res = T_int / 2^NP")
       ->capture_default_str();
-  command->add_option("--bin-width", options->bin_width_ps, "histograms in arrays: width of a bin in ps");
+  command->add_option("--bin-width", options->bin_width_ps,
+                      "histograms of arrays, logs: width of a bin in ps");
   command->add_option("--tick", options->tick_ps, "MAT: duration of a tick in ps")->capture_default_str();
   command->add_option("--variable", options->recording.variable, "MAT: name of the cell array")
       ->capture_default_str();

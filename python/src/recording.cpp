@@ -131,7 +131,8 @@ void bind_recordings(py::module_& module) {
   py::class_<HeldRecording>(module, "Recording", "A recorded frame.")
       .def_readonly("description", &HeldRecording::description, "Short description of the file.")
       .def_readonly("format", &HeldRecording::format,
-                    "csv, npy, npz, mat, hdf5, photon-hdf5, picoquant, tmf8820 or tmf8829.")
+                    "csv, npy, npz, mat, hdf5, photon-hdf5, picoquant, tmf8820, tmf8821, tmf8828, tmf8829 or "
+                    "vl53l8ch.")
       .def_readonly("photons", &HeldRecording::photons)
       .def_property_readonly(
           "true_distance_m", &true_distances,
@@ -142,7 +143,7 @@ void bind_recordings(py::module_& module) {
              "slots"_a = 2, "integration_time_s"_a = 45e-9, "time_shift_s"_a = 0.0, "photons"_a = py::none(),
              "background"_a = 0.0, "seed"_a = 1, "frame"_a = 0,
              "Reads a recording as `dtof replay` does: a TDC stream (CSV), histograms (NPY, NPZ, HDF5, MAT, "
-             "TMF8820, TMF8829), photon times (MAT), time tags (PTU, HT3, "
+             "TMF8820, TMF8821, TMF8828, TMF8829, VL53L8CH), photon times (MAT), time tags (PTU, HT3, "
              "Photon-HDF5).");
   module.def("read_array", &read_array, "file"_a, py::kw_only(), "variable"_a = "photon_times",
              "Reads an array of an NPY, NPZ, HDF5 or MAT file (5 and 7.3, axes as in MATLAB) as float64. A "

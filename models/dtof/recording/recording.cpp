@@ -21,13 +21,15 @@
 #include "dtof/io/input_file.hpp"
 #include "dtof/io/npy.hpp"
 #include "dtof/recording/histogram_stream.hpp"
+#include "dtof/recording/line_reader.hpp"
 #include "dtof/recording/photon_hdf5_cube.hpp"
 #include "dtof/recording/photon_times_mat.hpp"
 #include "dtof/recording/picoquant.hpp"
 #include "dtof/recording/stream_csv.hpp"
 #include "dtof/recording/tmf8820_json.hpp"
-#include "dtof/recording/tmf8820_log.hpp"
 #include "dtof/recording/tmf8829_json.hpp"
+#include "dtof/recording/tmf882x_log.hpp"
+#include "dtof/recording/vl53l8ch_log.hpp"
 
 namespace dtof {
 namespace {
@@ -59,19 +61,17 @@ struct NameEnding {
   const char* format;
 };
 
-/// What the content says of a file, else its name. Throws InputError.
-std::string find_format(const std::string& name, std::string_view contents) {
-  constexpr std::array<NameEnding, 8> kEndings = {{{".csv", "csv"},
-                                                   {".csv.gz", "csv"},
-                                                   {".npy", "npy"},
-                                                   {".npy.gz", "npy"},
-                                                   {".mat", "mat"},
-                                                   {".mat.gz", "mat"},
-                                                   {".json", "tmf8820"},
-                                                   {".json.gz", "tmf8820"}}};
+/// First character of a text that is no blank; a blank if there is none.
+char first_character(std::string_view contents) {
   const std::string_view text = without_byte_order_mark(contents);
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  const char first = begin == std::string_view::npos ? ' ' : text[begin];
+  return begin == std::string_view::npos ? ' ' : text[begin];
+}
+
+/// What the content says of a file; empty if it says nothing.
+std::string format_of_contents(std::string_view contents) {
+  const std::string_view start = contents.substr(0, kStartOfLog);
+  const char first = first_character(start);
   if (contents.starts_with("\x93NUMPY")) {
     return "npy";
   }
@@ -84,11 +84,31 @@ std::string find_format(const std::string& name, std::string_view contents) {
   if (first == '{') {  // a TMF8829 log is an object, the TMF8820 captures are an array
     return "tmf8829";
   }
-  if (first == '[' || is_tmf8820_log(text.substr(0, kStartOfLog))) {
+  if (first == '[' || is_tmf882x_log(start)) {
     return "tmf8820";
   }
-  if (text.substr(0, text.find('\n')).find("acquisition") != std::string_view::npos) {
+  if (is_vl53l8ch_log(start)) {
+    return "vl53l8ch";
+  }
+  if (contents.substr(0, contents.find('\n')).find("acquisition") != std::string_view::npos) {
     return "csv";
+  }
+  return "";
+}
+
+/// What the content says of a file, else its name. Throws InputError.
+std::string find_format(const std::string& name, std::string_view contents) {
+  constexpr std::array<NameEnding, 8> kEndings = {{{".csv", "csv"},
+                                                   {".csv.gz", "csv"},
+                                                   {".npy", "npy"},
+                                                   {".npy.gz", "npy"},
+                                                   {".mat", "mat"},
+                                                   {".mat.gz", "mat"},
+                                                   {".json", "tmf8820"},
+                                                   {".json.gz", "tmf8820"}}};
+  const std::string found_in_contents = format_of_contents(contents);
+  if (!found_in_contents.empty()) {
+    return found_in_contents;
   }
   const auto* const found =
       std::ranges::find_if(kEndings, [&](const NameEnding& known) { return name_ends(name, known.ending); });
@@ -103,16 +123,46 @@ std::string left_out_phrase(std::size_t count, std::string_view what) {
   return count == 0 ? "" : fmt::format(", {} {} left out", count, what);
 }
 
-RecordedData open_tmf8820(const RecordingOptions& options, const RecordingFile& file) {
-  Tmf8820Log log;
-  if (is_tmf8820_log(file.contents)) {
-    log = parse_tmf8820_log(options.file, file.contents);
-  } else {
-    log.captures = parse_tmf8820_json(options.file, file.contents);
+/// Format of a log that is read line by line from its file; empty for another file, and for a pipe whose
+/// contents decide.
+std::string line_log_format(const RecordingOptions& options, const std::filesystem::path& path) {
+  const std::string& asked = options.format;
+  if (asked == "tmf8821" || asked == "tmf8828" || asked == "vl53l8ch") {
+    return asked;
   }
-  return {.description = fmt::format("ams TMF8820, {} captures of 9 zones{}", log.captures.size(),
-                                     left_out_phrase(log.incomplete, "incomplete")),
-          .data = tmf8820_cube(log.captures, kTmf8820BinWidth, 0.0, options.file)};
+  if (asked != "auto" && asked != "tmf8820") {
+    return "";
+  }
+  const std::string start = file_start(path, kStartOfLog);
+  const std::string found = format_of_contents(start);
+  const bool lines = found == "vl53l8ch" || (found == "tmf8820" && first_character(start) != '[');
+  return lines && (asked == "auto" || asked == found) ? found : "";
+}
+
+RecordedData open_line_log(const RecordingOptions& options, const RecordingFile& file) {
+  const std::filesystem::path path = parse_array_address(options.file).file;
+  LineReader lines = file.contents.empty() ? LineReader(path) : LineReader(path, file.contents);
+  std::string description;
+  HistogramCube cube;
+  if (file.format == "vl53l8ch") {
+    cube = read_vl53l8ch_log(lines, options.bin_width_s, description);
+  } else {
+    Tmf882xOptions log{.mode = std::nullopt, .bin_width_s = options.bin_width_s};
+    if (file.format != "tmf8820") {
+      log.mode = file.format == "tmf8821" ? Tmf882xMode::kTwoCaptures : Tmf882xMode::kEightByEight;
+    }
+    cube = read_tmf882x_log(lines, log, description);
+  }
+  return {.description = std::move(description), .data = std::move(cube)};
+}
+
+RecordedData open_tmf8820(const RecordingOptions& options, const RecordingFile& file) {
+  if (file.contents.empty() || is_tmf882x_log(file.contents)) {
+    return open_line_log(options, file);
+  }
+  const std::vector<Tmf8820Capture> captures = parse_tmf8820_json(options.file, file.contents);
+  return {.description = fmt::format("ams TMF8820, {} captures of 9 zones", captures.size()),
+          .data = tmf8820_cube(captures, options.bin_width_s.value_or(kTmf8820BinWidth), 0.0, options.file)};
 }
 
 RecordedData open_stream(const RecordingOptions& options, const RecordingFile& file) {
@@ -206,6 +256,10 @@ RecordingFile read_recording(const RecordingOptions& options) {
     file.format = "picoquant";
     return file;
   }
+  if (std::string format = line_log_format(options, path); !format.empty()) {
+    file.format = std::move(format);
+    return file;
+  }
   std::string packed = read_file(path);
   // A frame as text is longer than what other files may unpack to.
   const bool stream = options.format == "csv" || name_ends(path.string(), ".csv.gz");
@@ -238,6 +292,9 @@ RecordedData open_recorded_data(const RecordingOptions& options, const Recording
   }
   if (file.format == "tmf8820") {
     return open_tmf8820(options, file);
+  }
+  if (file.format == "tmf8821" || file.format == "tmf8828" || file.format == "vl53l8ch") {
+    return open_line_log(options, file);
   }
   if (file.format == "tmf8829") {
     const Tmf8829Log log = parse_tmf8829_json(options.file, file.contents);

@@ -18,8 +18,11 @@
 
 namespace dtof {
 
-inline constexpr std::array<std::string_view, 9> kRecordingFormats = {
-    "csv", "npy", "npz", "mat", "hdf5", "photon-hdf5", "picoquant", "tmf8820", "tmf8829"};
+/// "tmf8820": captures as JSON, or the serial log of any sensor of the family, whose zones the log tells;
+/// "tmf8821" and "tmf8828": a serial log of two captures per result, of four results per frame.
+inline constexpr std::array<std::string_view, 12> kRecordingFormats = {
+    "csv",       "npy",     "npz",     "mat",     "hdf5",    "photon-hdf5",
+    "picoquant", "tmf8820", "tmf8821", "tmf8828", "tmf8829", "vl53l8ch"};
 
 /// Member of an NPZ archive with the bin width of its histograms, in ps.
 inline constexpr std::string_view kBinWidthName = "bin_width_ps";
@@ -28,7 +31,7 @@ inline constexpr std::string_view kBinWidthName = "bin_width_ps";
 struct RecordingOptions {
   std::string file;             ///< path; for an archive also "file.h5:/cube" (container/array_address.hpp)
   std::string format = "auto";  ///< auto (by content, else by name), or one of kRecordingFormats
-  std::optional<double> bin_width_s = std::nullopt;  ///< bin width of histograms in arrays
+  std::optional<double> bin_width_s = std::nullopt;  ///< bin width of histograms in arrays and logs
   double tick_s = 8e-12;                             ///< MAT: duration of a tick
   std::string variable = "photon_times";
   std::optional<std::uint32_t> acquisitions = std::nullopt;
@@ -41,8 +44,8 @@ struct RecordingOptions {
 
 /// Contents of a file, which is read once, so it may be a pipe.
 struct RecordingFile {
-  /// Contents, unpacked if they were gzip; empty for hdf5, photon-hdf5 and picoquant, which are read piece by
-  /// piece.
+  /// Contents, unpacked if they were gzip; empty for what is read piece by piece: hdf5, photon-hdf5,
+  /// picoquant, and logs of lines unless their format was found in a pipe.
   std::string contents;
   std::string format;  ///< one of kRecordingFormats
 };

@@ -123,6 +123,20 @@ TEST_F(ConversionTest, AStreamBecomesItsHistograms) {
   EXPECT_EQ(read_npy(path("b.npy")).values, member("a.npz", "histograms").values);
 }
 
+TEST_F(ConversionTest, ALogOfHistogramsBecomesAnArchiveAndAStream) {
+  (void)write(
+      "a.csv",
+      "mi__agg_id_z0,distance_mm_z0,cnh__hist_bin_0_a0,cnh__hist_bin_1_a0\n0,100.5,3,-0.25\n0,nan,0,5\n");
+  ConversionOptions options;
+  options.recording.bin_width_s = 1e-9;
+  EXPECT_EQ(run("a.csv", "a.npz", options),
+            "ST VL53L8CH, 2 frames of 1 histograms: histograms of 1 rows, 2 columns and 2 bins of 1000 ps");
+  EXPECT_THAT(member("a.npz", "histograms").values, ElementsAre(3, 0, 0, 5));
+  EXPECT_EQ(member("a.npz", "true_distance_m").values.front(), 100.5 * 1e-3);
+  EXPECT_THAT(run("a.csv", "b.csv", options), HasSubstr("a TDC stream of 2 columns, 1 rows"));
+  EXPECT_THAT(contents(path("b.csv")), HasSubstr("acquisition,column,row,timestamp\n"));
+}
+
 TEST_F(ConversionTest, TimeTagsBecomeTheEventsOfAnotherLibrary) {
   const std::filesystem::path sample = test::shared_data("picoquant/v10.ht3");
   DTOF_SKIP_IF_ABSENT(sample);

@@ -16,6 +16,7 @@
 #include "dtof/io/result_csv.hpp"
 #include "dtof/recording/photon_times_mat.hpp"
 #include "dtof/recording/picoquant.hpp"
+#include "dtof/recording/recording.hpp"
 #include "dtof/recording/tmf8820_json.hpp"
 #include "dtof/recording/tmf8829_json.hpp"
 
@@ -68,6 +69,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Reader{"photon_times_mat", [](const auto& file) { (void)read_photon_times_mat(file); }},
                     Reader{"tmf8820_json", [](const auto& file) { (void)read_tmf8820_json(file); }},
                     Reader{"tmf8829_json", [](const auto& file) { (void)read_tmf8829_json(file); }},
+                    Reader{"sensor_log",
+                           [](const auto& file) {
+                             const RecordingOptions options{.file = file.string(), .bin_width_s = 1e-9};
+                             (void)open_recorded_data(options, read_recording(options));
+                           }},
                     Reader{"depth_image", [](const auto& file) { (void)read_depth_image(file, 0.001); }}),
     [](const testing::TestParamInfo<Reader>& reader) { return reader.param.name; });
 

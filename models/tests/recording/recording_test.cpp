@@ -34,6 +34,8 @@ TEST_F(RecordingTest, ContentSaysWhatAFileIsAndElseTheName) {
     EXPECT_EQ(format_of(write(name, "\xEF\xBB\xBF \n {}")), "tmf8829") << name;
     EXPECT_EQ(format_of(write(name, " [{}]")), "tmf8820") << name;
     EXPECT_EQ(format_of(write(name, "started\n#Raw,65,0,1\n")), "tmf8820") << name;
+    EXPECT_EQ(format_of(write(name, "started\nAgg,  0, Ambient\n")), "vl53l8ch") << name;
+    EXPECT_EQ(format_of(write(name, "\xEF\xBB\xBFstreamcount,cnh__hist_bin_0_a0\n")), "vl53l8ch") << name;
     EXPECT_EQ(format_of(write(name, "\x93NUMPY...")), "npy") << name;
     EXPECT_EQ(format_of(write(name, "MATLAB 5.0")), "mat") << name;
   }
@@ -64,6 +66,23 @@ TEST_F(RecordingTest, PipesAndGzipAreReadOnce) {
   EXPECT_EQ(histograms.source->column(1).row(0).size(), 4U);
 }
 
+TEST_F(RecordingTest, LogsOfLinesAreReadInPiecesAndFromPipes) {
+  const std::string log = "cnh__hist_bin_0_a0,cnh__hist_bin_1_a0\n3,0\n0,5\n";
+  write_gzip_file(path("a.gz"), log);
+  EXPECT_EQ(read_recording({.file = path("a.gz")}).contents, "");
+  for (const std::filesystem::path& file : {write("a.csv", log), path("a.gz"), pipe_of(log)}) {
+    const Recording recording = open({.file = file, .bin_width_s = 1e-9});
+    EXPECT_EQ(recording.description, "ST VL53L8CH, 2 frames of 1 histograms");
+    EXPECT_EQ(recording.source->column(0).row(0).size(), 3U);
+    EXPECT_EQ(recording.source->column(1).row(0).size(), 5U);
+  }
+  EXPECT_EQ(open({.file = pipe_of(log), .format = "vl53l8ch", .bin_width_s = 1e-9}).source->columns(), 2);
+  test::expect_input_error([&] { (void)open({.file = write("b.csv", "what?\n"), .format = "tmf8828"}); },
+                           EndsWith("b.csv: no whole capture: one has 30 lines \"#Raw\""));
+  test::expect_input_error([&] { (void)open({.file = pipe_of("[]"), .format = "tmf8820"}); },
+                           EndsWith(": no captures"));
+}
+
 TEST_F(RecordingTest, RefusalsNameTheFile) {
   write_npy(path("a.npy"), std::vector<std::size_t>{2, 1}, std::vector<double>{3, 0.5});
   test::expect_input_error(
@@ -85,6 +104,16 @@ TEST_F(RecordingTest, WhatIsLeftOutIsSaid) {
     log += "\n";
   }
   EXPECT_EQ(open({.file = write("a.log", log)}).description, "ams TMF8820, 1 captures of 9 zones");
+  EXPECT_EQ(open({.file = pipe_of(log)}).description, "ams TMF8820, 1 captures of 9 zones");
+  const std::string results = log + log + "#Obj,65,0\n" + log + log + "#Obj,65,1\n";
+  EXPECT_EQ(open({.file = write("r.log", results), .format = "tmf8821", .bin_width_s = 1e-10}).description,
+            "ams TMF8821, 2 captures of 16 zones");
+  const std::string map = "#Conf,KIter=9 SPAD=15\n";
+  EXPECT_EQ(
+      open({.file = write("m.log", map + results + log + log + "#Obj,65,2\n" + log + log + "#Obj,65,3\n"),
+            .bin_width_s = 1e-10})
+          .description,
+      "ams-OSRAM TMF8828, 1 frames of 8 x 8 zones");
   const Recording cut = open({.file = write("b.log", log + log.substr(0, 2000))});
   EXPECT_EQ(cut.description, "ams TMF8820, 1 captures of 9 zones, 1 incomplete left out");
   EXPECT_EQ(cut.source->column(0).row(0).size(), 9U);
