@@ -20,10 +20,10 @@ namespace dtof {
 /// `early`, a bin that passes is the report, and the pixel counts no further detection in this frame. A pixel
 /// without a report, and any pixel without `early`, takes its highest bin at the end of the frame.
 ///
-/// The abstracts leave open the number of bins, the reference bins and the factor; those above are choices of
-/// this model: one background bin in a million exceeds the threshold. The 2.4 us of the paper is the delay of
-/// an FPGA's circuit from the peak to the report, which this model does not have; what can be compared is
-/// the number of acquisitions until the report.
+/// The abstracts leave open the number of bins, the reference bins, the factor and the least mean; those
+/// above are choices of this model, with which about one pixel in a hundred reports background during a
+/// frame. The 2.4 us of the paper's title belong to the circuit of its FPGA, which is not modelled; the
+/// latency of this model is the number of acquisitions until the report.
 ///
 /// Words: the bin, the counts of its left neighbour, of the bin and of its right neighbour (0 beyond the
 /// range), r, m, and the acquisition of the report (the frame's number of acquisitions without one). The host
