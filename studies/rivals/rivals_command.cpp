@@ -182,7 +182,10 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
   std::string report = fmt::format(
       "# Read-outs and their rivals\n\nPer cent of pixels with a relative error above 3 % and above 10 "
       "%, sensor {}, seeds {} to {} (photons and random shapes), at most {} columns of a scene. All "
-      "rows see the same photons. +- is half of the 95 % interval, from the spread of the seeds, and "
+      "rows see the same photons; a rival whose result needs several frames also sees frames before them, "
+      "and the "
+      "linearised average a frame without laser light. +- is half of the 95 % interval, from the spread of "
+      "the seeds, and "
       "at least that of independent pixels. Edges: pixels with a neighbour that differs by more than "
       "10 %; single pixels: pixels that differ from all their neighbours. Scenes \"held\": no "
       "parameter of poolPointer was chosen on them. Bits: the pixel's memory only. \"pooled\": the "

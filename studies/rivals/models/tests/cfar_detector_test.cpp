@@ -95,7 +95,7 @@ TEST(CfarDetector, RefusesOtherSizes) {
               ThrowsMessage<InputError>(HasSubstr("4 to 16")));
 }
 
-// Of two bins with a mean of 1 the counts are equal with probability e^-2 I0(2) = 0.308508.
+// Two counts with a mean of 1 are equal with probability e^-2 I0(2) = 0.308508.
 TEST(RawPeakProbability, ByHand) {
   EXPECT_NEAR(raw_peak_probability(std::array{1.0, 1.0}, 0), 0.5 * (1.0 + 0.308508), 1e-6);
   EXPECT_NEAR(raw_peak_probability(std::array{1.0, 1.0}, 1), 0.5 * (1.0 - 0.308508), 1e-6);
