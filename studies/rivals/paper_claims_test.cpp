@@ -97,7 +97,7 @@ TEST(PaperClaims, EachHasAFigureAndAVerdict) {
     EXPECT_GT(ratio, 0.8) << scene.name;
     EXPECT_LT(ratio, 1.3) << scene.name;
   }
-  EXPECT_EQ(found.claims.size(), 17U);
+  EXPECT_EQ(found.claims.size(), 18U);
   for (const PaperClaim& claim : found.claims) {
     for (const std::string& text : {claim.paper, claim.claim, claim.test, claim.figure}) {
       EXPECT_FALSE(text.empty());

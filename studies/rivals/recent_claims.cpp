@@ -18,16 +18,29 @@
 #include "dtof/metrics/error_estimates.hpp"
 #include "dtof/metrics/error_statistics.hpp"
 #include "rivals/flux_photons.hpp"
+#include "rivals/models/bin_matcher.hpp"
 #include "rivals/models/cfar_detector.hpp"
 #include "rivals/models/equi_depth.hpp"
 #include "rivals/models/equi_depth_fit.hpp"
+#include "rivals/models/linear_code.hpp"
 #include "rivals/models/linearised_average.hpp"
+#include "rivals/models/optimised_code.hpp"
 #include "rivals/models/pulse_shape.hpp"
 
 namespace dtof {
 namespace {
 
 constexpr double kPulseShare = 0.0189;  // the thesis's pulse: sigma of 2 ns FWHM in 45 ns
+
+/// Two of the photons of paper_claims.cpp.
+struct NamedLight {
+  std::string_view name;
+  IndependentPhotons photons;
+};
+constexpr std::array kTwoLights = {
+    NamedLight{"even", {.np = 10, .pulse_sigma = kPulseShare, .detections = 1000, .signal_share = 0.5}},
+    NamedLight{"sunlit",
+               {.np = 10, .pulse_sigma = kPulseShare, .detections = 10'000, .signal_share = 1.0 / 11.0}}};
 
 double share_of(const std::vector<double>& errors, double limit) {
   const auto within = std::ranges::count_if(errors, [=](double error) { return std::abs(error) <= limit; });
@@ -103,14 +116,9 @@ PaperClaim early_reports(const PaperClaimSettings& settings) {
   constexpr double kHalf = 0.5;
   constexpr double kMostWrong = 0.01;
   constexpr std::size_t kTimeWord = 6;
-  struct Light {
-    std::string_view name;
-    IndependentPhotons photons;
-  };
   std::vector<std::string> texts;
   std::vector<bool> held;
-  for (const auto& [name, photons] : {Light{"even", {10, kPulseShare, 1000, 0.5}},
-                                      Light{"sunlit", {10, kPulseShare, 10'000, 1.0 / 11.0}}}) {
+  for (const auto& [name, photons] : kTwoLights) {
     const std::shared_ptr<const Rival> cfar = make_cfar_detector(photons.sensor(), {.count_bits = 16});
     const PlaceEstimator time = [cfar](PixelFrames frames) {
       return static_cast<double>(cfar->read_pixel(frames)[kTimeWord]);
@@ -265,11 +273,64 @@ PaperClaim free_running_boundaries(const PaperClaimSettings& settings) {
           fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
 }
 
+/// A histogram of 32 bins that is swept over the range in four steps, each for a quarter of the frame.
+std::vector<std::int32_t> swept_histogram(std::span<const Detection> frame, std::uint32_t acquisitions) {
+  constexpr std::size_t kSteps = 4;
+  constexpr std::size_t kBinCodes = 8;
+  std::vector<std::int32_t> counts(1024 / kBinCodes, 0);
+  for (const Detection& detection : frame) {
+    const std::size_t bin = detection.timestamp / kBinCodes;
+    const std::size_t step = std::size_t{detection.acquisition} * kSteps / acquisitions;
+    counts[bin] += bin * kSteps / counts.size() == step ? 1 : 0;
+  }
+  return counts;
+}
+
+PaperClaim codes_beside_swept_histograms(const PaperClaimSettings& settings) {
+  constexpr double kMostError = 0.35;
+  std::vector<std::string> texts;
+  std::vector<bool> held;
+  for (const auto& [name, photons] : kTwoLights) {
+    const SensorModel sensor = photons.sensor();
+    const auto matcher = std::make_shared<const BinMatcher>(sensor, 128, 8);
+    const PlaceEstimator highest = [all = photons.detections](PixelFrames frames) {
+      const std::vector<std::int32_t> counts = swept_histogram(frames.back(), all);
+      return 8.0 * (static_cast<double>(std::ranges::max_element(counts) - counts.begin()) + 0.5) - 0.5;
+    };
+    const PlaceEstimator matched = [matcher, all = photons.detections](PixelFrames frames) {
+      return matcher->decode(swept_histogram(frames.back(), all)).position;
+    };
+    const PlaceEstimator code = estimator_of(make_linear_code(
+        sensor, {.counters = 8,
+                 .weights = wave_weights(sensor.np, waves_of(optimised_harmonics(sensor, 8)), 4),
+                 .count_bits = 20,
+                 .is_signed = true}));
+    const PlaceErrors found =
+        place_errors(photons, {code, highest, matched}, settings.pixels, settings.seed, settings.threads);
+    std::array<double, 3> errors{};
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      errors[i] = estimate_root_mean_square(found.errors[i]).value;
+    }
+    held.push_back(errors[0] <= kMostError * errors[1]);
+    texts.push_back(fmt::format("{}: {:.2f} times (with a matched filter for the histogram: {:.2f})", name,
+                                errors[0] / errors[1], errors[0] / errors[2]));
+  }
+  return {
+      "Feng et al., IEEE Sensors Journal 2025 (doi 10.1109/JSEN.2025.3575784)",
+      "Codes of 4 bits that are optimised by data have 65 % less error than a swept partial histogram at "
+      "four "
+      "times its compression",
+      "optimised harmonics K = 8, this project's own code in place of the learned one, beside the highest "
+      "bin of "
+      "a 32-bin histogram swept over the range in four steps: at most 0.35 times the root mean square error",
+      fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
+}
+
 }  // namespace
 
 std::vector<PaperClaim> judge_recent_claims(const PaperClaimSettings& settings) {
   return {average_without_pile_up(settings), early_reports(settings), probability_of_a_raw_peak(settings),
-          free_running_boundaries(settings)};
+          free_running_boundaries(settings), codes_beside_swept_histograms(settings)};
 }
 
 }  // namespace dtof

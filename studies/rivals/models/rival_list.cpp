@@ -10,6 +10,7 @@
 #include "rivals/models/linear_code.hpp"
 #include "rivals/models/linearised_average.hpp"
 #include "rivals/models/online_em.hpp"
+#include "rivals/models/optimised_code.hpp"
 #include "rivals/models/rival.hpp"
 
 namespace dtof {
@@ -34,6 +35,9 @@ constexpr std::string_view kSpline = "arXiv 2210.07314";
 constexpr std::string_view kLinearised =
     "Tontini et al., IEEE Sensors Journal 24(4), 2024 (arXiv 2310.09176)";
 constexpr std::string_view kAsynchronous = "Liu et al., arXiv 2509.19192; ISCAS 2025";
+constexpr std::string_view kOptimised =
+    "an optimisation of this project, in place of the learned code of Feng et al., IEEE Sensors Journal 2025 "
+    "(doi 10.1109/JSEN.2025.3575784), which is not public";
 constexpr std::string_view kHighFlux =
     "Sadekar et al., High-Flux Count-Free Single-Photon 3D Cameras, ICCP 2025";
 
@@ -105,6 +109,8 @@ constexpr std::array kRivals = std::to_array<RivalEntry>({
     {"gray8-3bit", "Gray-Fourier K = 8, 3 bits", kCompressive, gray<8, 3>},
     {"gray8-2bit", "Gray-Fourier K = 8, 2 bits", kCompressive, gray<8, 2>},
     {"gray8-1bit", "Gray-Fourier K = 8, 1 bit", kCompressive, gray<8, 1>},
+    {"optimised8", "optimised harmonics K = 8", kOptimised,
+     [](const Sensor& sensor) { return make_optimised_code(sensor, 8); }},
     {"signs", "sign-Fourier, harmonics 1 and 4", kCompressive, signs_of_two_harmonics,
      RivalClaim{{57.4, 22.6}, {86.8, 53.4}}},
 
