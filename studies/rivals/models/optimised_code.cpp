@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -15,7 +16,7 @@ namespace dtof {
 namespace {
 
 constexpr int kNumberBits = 4;
-constexpr double kDesignKlux = 50.0;
+constexpr std::array kDesignKlux = {2.0, 14.0, 50.0};
 
 /// What E depends on besides the harmonics.
 struct CodeDesign {
@@ -24,12 +25,12 @@ struct CodeDesign {
   double signal;  ///< S
   double events;  ///< N
 
-  explicit CodeDesign(const SensorModel& sensor)
+  CodeDesign(const SensorModel& sensor, double klux)
       : codes(std::ldexp(1.0, sensor.np)), sigma(PulseShape(sensor).sigma()) {
     constexpr double kLightSpeed = 299'792'458.0;
     const double half_range_m = 0.25 * kLightSpeed * sensor.integration_time_s;
     signal = sensor.acquisitions * sensor.signal_events(half_range_m, 1.0);
-    events = signal + sensor.acquisitions * sensor.background_events(kDesignKlux, 1.0);
+    events = signal + sensor.acquisitions * sensor.background_events(klux, 1.0);
   }
 
   [[nodiscard]] double error(std::span<const int> harmonics) const {
@@ -57,12 +58,19 @@ struct CodeDesign {
 
 }  // namespace
 
-double expected_square_error(const SensorModel& sensor, std::span<const int> harmonics) {
-  return CodeDesign(sensor).error(harmonics);
+double expected_square_error(const SensorModel& sensor, double klux, std::span<const int> harmonics) {
+  return CodeDesign(sensor, klux).error(harmonics);
+}
+
+double mean_square_error(const SensorModel& sensor, std::span<const int> harmonics) {
+  double sum = 0.0;
+  for (const double klux : kDesignKlux) {
+    sum += std::log(expected_square_error(sensor, klux, harmonics));
+  }
+  return std::exp(sum / static_cast<double>(kDesignKlux.size()));
 }
 
 std::vector<int> optimised_harmonics(const SensorModel& sensor, int counters) {
-  const CodeDesign design(sensor);
   const int most = std::max(largest_harmonic(sensor), counters / 2);
   std::vector<int> best;
   for (const CodeWave& wave : gray_fourier(counters, largest_harmonic(sensor))) {
@@ -70,7 +78,7 @@ std::vector<int> optimised_harmonics(const SensorModel& sensor, int counters) {
       best.push_back(wave.harmonic);
     }
   }
-  double least = design.error(best);
+  double least = mean_square_error(sensor, best);
   for (bool better = true; better;) {
     better = false;
     const std::vector<int> from = best;
@@ -78,7 +86,8 @@ std::vector<int> optimised_harmonics(const SensorModel& sensor, int counters) {
       for (int harmonic = 1; harmonic <= most; ++harmonic) {
         std::vector<int> tried = from;
         tried[place] = harmonic;
-        const double error = std::ranges::count(from, harmonic) > 0 ? least : design.error(tried);
+        const double error =
+            std::ranges::count(from, harmonic) > 0 ? least : mean_square_error(sensor, tried);
         if (error < least) {
           least = error;
           best = tried;

@@ -26,11 +26,14 @@ namespace dtof {
 ///     E = N / 2 / (S^2 sum of (2 pi h g[h] / T)^2)  +  sum over x of x^2 Q(d(x) / 2 / sqrt(N / 2))
 ///
 /// x takes both signs, in steps of half a standard deviation of the pulse, from two standard deviations on.
-/// The search begins with the Gray-Fourier code, and replaces the harmonic whose replacement lowers E most
-/// until none does. S and N are those of a white target at half of the range in 50 klux.
+/// S and N are those of a white target at half of the range. The search lowers the geometric mean of E in 2,
+/// 14 and 50 klux: it begins with the Gray-Fourier code, and replaces the harmonic whose replacement lowers
+/// the mean most until none does.
 std::vector<int> optimised_harmonics(const SensorModel& sensor, int counters);
 /// E for a set of harmonics.
-double expected_square_error(const SensorModel& sensor, std::span<const int> harmonics);
+double expected_square_error(const SensorModel& sensor, double klux, std::span<const int> harmonics);
+/// The geometric mean of E.
+double mean_square_error(const SensorModel& sensor, std::span<const int> harmonics);
 
 /// `counters`: 2 .. 32, even.
 std::unique_ptr<Rival> make_optimised_code(const SensorModel& sensor, int counters);
