@@ -197,7 +197,9 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
     report += fmt::format("\n{}\n", note);
   }
   report +=
-      "\n## Beside each other\n\nAll scenes but the flats together; rivals on the front of some light.\n";
+      "\n## Beside each other\n\nAll scenes except the flat targets together. The list has the rivals that "
+      "are on the "
+      "front of at least one light (section Front).\n";
   for (const std::string& title : rivals_on_a_front(lights)) {
     for (const Readout other : {Readout::kHisPointer, Readout::kPoolPointer}) {
       const std::string sentence = comparison_sentence(lights, title, std::string(readout_title(other)));
