@@ -57,7 +57,10 @@ class CfarDetector final : public Rival {
       }
       const auto bin = static_cast<std::int32_t>(detection.timestamp >> shift_);
       std::int32_t& count = counts[static_cast<std::size_t>(bin)];
-      count += count < limit_ ? 1 : 0;
+      if (count == limit_) {
+        break;
+      }
+      ++count;
       if (choice_.early && is_peak(counts, bin)) {
         return report(counts, bin, detection.acquisition);
       }

@@ -18,7 +18,9 @@ namespace dtof {
 ///
 /// Reference bins are the four bins on each side of k beyond two guard bins, as far as they exist. With
 /// `early`, a bin that passes is the report, and the pixel counts no further detection in this frame. A pixel
-/// without a report, and any pixel without `early`, takes its highest bin at the end of the frame.
+/// without a report, and any pixel without `early`, takes its highest bin at the end of the frame. The
+/// detection that would carry a bin over its limit is not counted, and neither are later ones, so that the
+/// bins keep their proportion.
 ///
 /// The abstracts leave open the number of bins, the reference bins, the factor and the least mean; those
 /// above are choices of this model, with which about one pixel in a hundred reports background during a
@@ -30,7 +32,7 @@ namespace dtof {
 /// takes the centroid of the three counts less r / m each, negative ones as 0.
 struct CfarChoice {
   int bin_bits = 5;    ///< 4 .. NP: 2^bin_bits bins over the range
-  int count_bits = 8;  ///< 4 .. 16; bins saturate
+  int count_bits = 8;  ///< 4 .. 16
   bool early = true;
 };
 std::unique_ptr<Rival> make_cfar_detector(const SensorModel& sensor, const CfarChoice& choice);

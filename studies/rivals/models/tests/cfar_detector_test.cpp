@@ -72,7 +72,9 @@ TEST(CfarDetector, WithoutEarlyReportsTheWholeFrameCounts) {
   const std::unique_ptr<Rival> whole = make_cfar_detector(SensorModel(), {.count_bits = 4, .early = false});
   EXPECT_THAT(read_one_frame(*whole, one_each(in_bins({{3, 12}, {20, 14}}))),
               ElementsAre(20, 0, 14, 0, 0, 8, 3333));
-  EXPECT_EQ(read_one_frame(*whole, one_each(in_bins({{20, 40}})))[2], 15);  // full
+  // The 16th detection in a bin of 4 bits ends the count of all bins.
+  EXPECT_THAT(read_one_frame(*whole, one_each(in_bins({{21, 3}, {20, 15}, {21, 2}, {20, 1}, {21, 5}}))),
+              ElementsAre(20, 0, 15, 5, 0, 8, 3333));
 }
 
 // The rate of false alarms that the header states, with four standard deviations of 400 pixels.
