@@ -312,18 +312,20 @@ PaperClaim codes_beside_swept_histograms(const PaperClaimSettings& settings) {
       errors[i] = estimate_root_mean_square(found.errors[i]).value;
     }
     held.push_back(errors[0] <= kMostError * errors[1]);
-    texts.push_back(fmt::format("{}: {:.2f} times (with a matched filter for the histogram: {:.2f})", name,
-                                errors[0] / errors[1], errors[0] / errors[2]));
+    held.push_back(errors[0] <= kMostError * errors[2]);
+    texts.push_back(fmt::format("{}: {:.2f} times (matched filter: {:.2f})", name, errors[0] / errors[1],
+                                errors[0] / errors[2]));
   }
-  return {
-      "Feng et al., IEEE Sensors Journal 2025 (doi 10.1109/JSEN.2025.3575784)",
-      "Codes of 4 bits that are optimised by data have 65 % less error than a swept partial histogram at "
-      "four "
-      "times its compression",
-      "optimised harmonics K = 8, this project's own code in place of the learned one, beside the highest "
-      "bin of "
-      "a 32-bin histogram swept over the range in four steps: at most 0.35 times the root mean square error",
-      fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
+  return {"Feng et al., IEEE Sensors Journal 2025 (doi 10.1109/JSEN.2025.3575784)",
+          "Codes of 4 bits that are optimised by data have 65 % less error than a swept partial histogram at "
+          "four "
+          "times its compression",
+          "optimised harmonics K = 8, this project's own code in place of the learned one, beside a 32-bin "
+          "histogram "
+          "swept over the range in four steps, read by its highest bin and by a matched filter: at most 0.35 "
+          "times "
+          "the root mean square error",
+          fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
 }
 
 }  // namespace
