@@ -98,8 +98,8 @@ PaperClaim average_without_pile_up(const PaperClaimSettings& settings) {
   }
   return {
       "Tontini et al. (FBK), IEEE Sensors Journal 24(4), 2024 (arXiv 2310.09176)",
-      "An average of timestamps tells the distance, far beyond the usual pile-up limit of 5 % detections a "
-      "pulse",
+      "An average of timestamps tells the distance, far beyond the usual pile-up limit of 5 % detections "
+      "a pulse",
       fmt::format("1 background and 0.5 signal photons a pulse: a SPAD would fire at {:.0f} % of the pulses; "
                   "mean error in the near, middle and far third of the range, at most half a standard "
                   "deviation of the pulse ({:.1f} codes)",
@@ -149,14 +149,12 @@ PaperClaim early_reports(const PaperClaimSettings& settings) {
         name, 100.0 * middle, 100.0 * wrong_share, estimate_root_mean_square(found.errors[1]).value,
         estimate_root_mean_square(found.errors[2]).value));
   }
-  return {
-      "Liu et al., arXiv 2509.19192",
-      "A pixel that reports as soon as its peak is significant has a lower latency than a frame",
-      "32 bins, even and sunlit photons: half of the pixels report within half of the frame, and at most 1 % "
-      "are wrong by more than three standard deviations of the pulse (the paper's 2.4 us belong to its "
-      "FPGA's "
-      "circuit, which is not modelled)",
-      fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
+  return {"Liu et al., arXiv 2509.19192",
+          "A pixel that reports as soon as its peak is significant has a lower latency than a frame",
+          "32 bins, even and sunlit photons: half of the pixels report within half of the frame, and at most "
+          "1 % are wrong by more than three standard deviations of the pulse (the paper's 2.4 us belong to "
+          "its FPGA's circuit, which is not modelled)",
+          fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
 }
 
 /// Mean counts of 32 bins.
@@ -206,12 +204,11 @@ PaperClaim probability_of_a_raw_peak(const PaperClaimSettings& settings) {
                                 signal * photons.acquisitions, 100.0 * predicted, 100.0 * measured.value,
                                 100.0 * measured.interval.low, 100.0 * measured.interval.high));
   }
-  return {
-      "the same", "The probability of detection of a raw peak has a semi-closed form",
-      "32 bins, 200 background photons: probability that the bin with the largest mean is the highest one, "
-      "within the 95 % interval of the counted share (the form is derived here; the paper's own is not "
-      "known)",
-      fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
+  return {"the same", "The probability of detection of a raw peak has a semi-closed form",
+          "32 bins, 200 background photons: probability that the bin with the largest mean is the highest "
+          "one, within the 95 % interval of the counted share (the form is derived here; the paper's own is "
+          "not known)",
+          fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
 }
 
 /// Boundaries of 16 parts as exact as all timestamps tell them.
@@ -262,14 +259,11 @@ PaperClaim free_running_boundaries(const PaperClaimSettings& settings) {
                     background, 100.0 * own, 100.0 * unfitted, 100.0 * armed));
   }
   return {"Sadekar, Goyal, Maier and Ingle, ICCP 2025 (arXiv 2608.18306)",
-          "Free-running capture with analysis by synthesis measures distances over a wide range of light, in "
-          "spite "
-          "of dead time",
+          "Free-running capture with analysis by synthesis measures distances over a wide range of light, "
+          "in spite of dead time",
           "exact boundaries of 16 parts, dead time of 3/4 of the range; 0.3, 1 and 3 background photons a "
-          "pulse, a "
-          "fifth as many of the signal: share of pixels within 1 % of the range, at least 90 %, and more "
-          "than the "
-          "narrowest part finds if the SPAD is armed at each pulse",
+          "pulse, a fifth as many of the signal: share of pixels within 1 % of the range, at least 90 %, "
+          "and more than the narrowest part finds if the SPAD is armed at each pulse",
           fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
 }
 
@@ -317,14 +311,11 @@ PaperClaim codes_beside_swept_histograms(const PaperClaimSettings& settings) {
                                 errors[0] / errors[2]));
   }
   return {"Feng et al., IEEE Sensors Journal 2025 (doi 10.1109/JSEN.2025.3575784)",
-          "Codes of 4 bits that are optimised by data have 65 % less error than a swept partial histogram at "
-          "four "
-          "times its compression",
-          "optimised harmonics K = 8, this project's own code in place of the learned one, beside a 32-bin "
-          "histogram "
-          "swept over the range in four steps, read by its highest bin and by a matched filter: at most 0.35 "
-          "times "
-          "the root mean square error",
+          "Codes of 4 bits that are optimised by data have 65 % less error than a swept partial histogram "
+          "at four times its compression",
+          "optimised harmonics K = 8, this project's own code in place of the learned one, beside a "
+          "32-bin histogram swept over the range in four steps, read by its highest bin and by a matched "
+          "filter: at most 0.35 times the root mean square error",
           fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
 }
 

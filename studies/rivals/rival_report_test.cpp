@@ -97,8 +97,7 @@ TEST(RivalReport, SentencesFollowTheFigures) {
   };
   EXPECT_EQ(sentence(0.30, 0.10),
             "counter compared with pointer (200 and 300 bits a pixel), pixels with an error above 3 %: 50 "
-            "klux 10.50 against "
-            "30.50 % (fewer).");
+            "klux 10.50 against 30.50 % (fewer).");
   EXPECT_THAT(sentence(0.10, 0.30), HasSubstr("(more)"));
   EXPECT_THAT(sentence(0.10, 0.11), HasSubstr("(no certain difference)"));
   // Half an interval is 0.0635: each share is outside the other's, but they overlap.
