@@ -255,7 +255,7 @@ def sensor_section(sensors: dict[str, dict[str, list[Point]]]) -> str:
             "and its share in per cent +- half of the interval, over all scenes except flat targets. The area is that of the thesis's "
             "array of 32,000 pixels, whatever the sensor's size. \"pooled\": the host pools the pixels. The sensors are those of "
             "`studies/rivals/` and the presets; the scenes are scaled to the sensors' ranges.\n\n" + table(("sensor", "light", *limits), rows)
-            + f"\nNumber of cells, {sum(chosen.values())} in all: "
+            + f"\nNumber of cells in which a read-out is the best one, of {sum(chosen.values())} in all: "
             + ", ".join(f"{title} {count}" for title, count in ranking) + ".\n")
 
 

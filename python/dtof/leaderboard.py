@@ -54,7 +54,7 @@ class Entry:
 
     `read_out` takes photons, the oldest frame first, and returns positions in bins (rows, columns); NaN is no distance. `table` takes a light in
     klux and returns the read-out's look-up table. `bits` is the memory for each pixel, None where it is not known. `frames` counts the frames
-    that a result needs.
+    that a result needs; the first `laser_off_frames` of them are taken without laser light.
     """
 
     title: str
@@ -63,6 +63,7 @@ class Entry:
     read_out: Callable[[Sequence[_core.Photons]], Positions]
     table: Callable[[float], _core.LookupTable]
     frames: int = 1
+    laser_off_frames: int = 0
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,11 @@ def middle(name: str, settings: Settings, seed: int) -> _core.Scene:
     left, top = (whole.columns - settings.columns) // 2, (whole.rows - settings.rows) // 2
     rows, columns = slice(top, top + settings.rows), slice(left, left + settings.columns)
     return _core.Scene.from_depth(whole.depth_m[rows, columns], whole.reflectivity[rows, columns])
+
+
+def without_laser(scene: _core.Scene) -> _core.Scene:
+    """Returns the scene with its background light alone: nothing at a finite distance returns laser light."""
+    return _core.Scene.from_depth(np.full_like(scene.depth_m, np.inf), scene.reflectivity)
 
 
 def has_truth(scene: _core.Scene) -> npt.NDArray[np.bool_]:
@@ -121,7 +127,7 @@ def readout_entry(name: str, settings: Settings, bits: float | None = None) -> E
 def rival_entry(name: str, settings: Settings) -> Entry:
     rival = _core.Rival(name, settings.sensor)
     return Entry(rival.title, "rival", float(rival.bits_per_pixel), lambda photons: rival.read_out(photons)["position"],
-                 lambda klux: rival.flat_table(klux, seed=settings.seed), rival.frames)
+                 lambda klux: rival.flat_table(klux, seed=settings.seed), rival.frames, rival.laser_off_frames)
 
 
 def model_entry(file: Path, settings: Settings) -> Entry:
@@ -187,12 +193,20 @@ def measure(entries: Sequence[Entry], settings: Settings, progress: Callable[[in
             if not pixels[-1]:
                 raise ValueError(f"no pixel of the scenes {', '.join(settings.scenes)} has a true distance in the part that is read")
             most = max(entry.frames for entry in entries)
-            photons = [[_core.photons(scene, sensor, klux, seed=settings.seed + number, frame=most * place + back) for back in reversed(range(most))]
-                       for place, scene in enumerate(scenes)]
+
+            def taken(scenes: Sequence[_core.Scene]) -> list[list[_core.Photons]]:
+                """The frames of each scene, the oldest first."""
+                return [[_core.photons(scene, sensor, klux, seed=settings.seed + number, frame=most * place + back) for back in reversed(range(most))]
+                        for place, scene in enumerate(scenes)]
+
+            photons = taken(scenes)
+            laser_off = taken([without_laser(scene) for scene in scenes]) if any(entry.laser_off_frames for entry in entries) else photons
             for entry, table, own in zip(entries, tables, shares):
                 wrong = dict.fromkeys(LIMITS, 0)
-                for scene, frames in zip(scenes, photons):
-                    positions = entry.read_out(frames[most - entry.frames:])
+                first = most - entry.frames
+                first_lit = first + entry.laser_off_frames
+                for scene, frames, dark in zip(scenes, photons, laser_off):
+                    positions = entry.read_out([*dark[first:first_lit], *frames[first_lit:]])
                     measured = np.where(np.isnan(positions), np.nan, table.distance(np.nan_to_num(positions)))
                     # A pixel without a distance is wrong; one without a true distance is not judged.
                     judged = has_truth(scene)

@@ -235,10 +235,13 @@ RangeConverter rival_table(const NamedRival& named, double klux, std::uint64_t s
   return do_work(py::none(), [&](const Progress::Observer& observer) {
     const FlatCalibration calibration(named.sensor);
     const auto count = static_cast<std::size_t>(named.rival->frames());
+    const auto first_lit = count - static_cast<std::size_t>(named.rival->laser_off_frames());
+    SensorModel without_laser = named.sensor;
+    without_laser.signal_events_1m = 0.0;
     std::vector<PhotonSource> frames;
     for (std::size_t before = count; before-- > 0;) {
-      frames.emplace_back(named.sensor, calibration.targets(), klux, seed,
-                          FlatCalibration::kFrame + 2 * static_cast<std::uint32_t>(before));
+      frames.emplace_back(before < first_lit ? named.sensor : without_laser, calibration.targets(), klux,
+                          seed, FlatCalibration::kFrame + 2 * static_cast<std::uint32_t>(before));
     }
     std::vector<const StreamSource*> sources;
     sources.reserve(count);
@@ -275,6 +278,9 @@ void bind_rivals(py::module_& module) {
           "Memory bits per pixel.")
       .def_property_readonly(
           "frames", [](const NamedRival& r) { return r.rival->frames(); }, "Number of frames per result.")
+      .def_property_readonly(
+          "laser_off_frames", [](const NamedRival& r) { return r.rival->laser_off_frames(); },
+          "How many of the first frames are taken without laser light (a scene with infinite distances).")
       .def("read_out", &read_rival, "photons"_a, py::kw_only(), "threads"_a = 0, "progress"_a = py::none(),
            "Reads out a frame, or a list of `frames` frames, the oldest first. Returns a dict of arrays "
            "(rows, columns): position\n(float64, bins) and confidence (float64); and words (rows, columns, "

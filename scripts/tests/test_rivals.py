@@ -72,7 +72,7 @@ class Picture(unittest.TestCase):
         section = rivals.sensor_section({"mine": {"50": points}})
         area = f"{points[1].mm2:.2f} mm2"
         self.assertIn(f"| mine | in the sun, 50 klux | - | - | - | 32-bin histogram: 10.00 +-7.50 ({area}) |", section)
-        self.assertIn("Number of cells, 1 in all: 32-bin histogram 1.", section)
+        self.assertIn("Number of cells in which a read-out is the best one, of 1 in all: 32-bin histogram 1.", section)
 
     def test_the_report_has_the_sections_before_the_lights(self) -> None:
         folder = self.path.parent

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@
 #include "rivals/models/guided_window.hpp"
 #include "rivals/models/linear_code.hpp"
 #include "rivals/models/online_em.hpp"
+#include "rivals/recent_claims.hpp"
 
 namespace dtof {
 namespace {
@@ -187,13 +189,6 @@ std::size_t index_of(const PaperScene& scene, std::string_view name) {
   return static_cast<std::size_t>(found - scene.codes.begin());
 }
 
-ClaimVerdict verdict_of(const std::vector<bool>& conditions) {
-  const auto held = std::ranges::count(conditions, true);
-  return held == std::ssize(conditions) ? ClaimVerdict::kHolds
-         : held > 0                     ? ClaimVerdict::kInPart
-                                        : ClaimVerdict::kFails;
-}
-
 /// One scene's figure after the other.
 template <typename Figure>
 std::string by_scene(std::span<const PaperScene> scenes, const Figure& figure) {
@@ -241,7 +236,7 @@ PaperClaim sketches_reach_the_bound(std::span<const PaperScene> scenes) {
       "The mean squared error comes quickly to the Cramer-Rao bound as the sketch grows, for modest sizes",
       fmt::format("smallest sketch whose error is at most {:.0f} % above the bound; modest: M up to {}",
                   100.0 * (kNegligibleLoss - 1.0), kModest),
-      fmt::format("{}", fmt::join(texts, "; ")), verdict_of(held)};
+      fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
 }
 
 PaperClaim sketches_compress(const PaperScene& fine) {
@@ -252,7 +247,7 @@ PaperClaim sketches_compress(const PaperScene& fine) {
   return {"the same", "Compression up to 150 without loss of the image's resolution",
           "error of M = 13 beside the full histogram of 4096 bins",
           fmt::format("compression {:.0f}: {:.2f} times the full histogram's error", compression, ratio),
-          verdict_of({compression >= 150.0 && ratio <= kNegligibleLoss})};
+          claim_verdict({compression >= 150.0 && ratio <= kNegligibleLoss})};
 }
 
 PaperClaim splines_compress(std::span<const PaperScene> scenes) {
@@ -268,7 +263,7 @@ PaperClaim splines_compress(std::span<const PaperScene> scenes) {
                    [&](const PaperScene& scene) {
                      return fmt::format("{:.2f} times", scene.ratio(kCode, kFull));
                    }),
-          verdict_of(held)};
+          claim_verdict(held)};
 }
 
 PaperClaim splines_are_even(const PaperScene& narrow, const PlaceErrors& found) {
@@ -278,7 +273,7 @@ PaperClaim splines_are_even(const PaperScene& narrow, const PlaceErrors& found) 
           "32 counters each, narrow pulse: the error where it is largest in a bin over where it is least, at "
           "most 2 for splines and more than twice that for bins",
           fmt::format("splines {:.1f}, bins {:.1f}", spline, bins),
-          verdict_of({spline <= 2.0 && bins > 2.0 * spline})};
+          claim_verdict({spline <= 2.0 && bins > 2.0 * spline})};
 }
 
 PaperClaim codes_compress(std::span<const PaperScene> scenes) {
@@ -300,7 +295,7 @@ PaperClaim codes_compress(std::span<const PaperScene> scenes) {
       fmt::format("largest compression, in numbers for each pixel, with at most {:.0f} % more error than the "
                   "full histogram; at least 10",
                   100.0 * (kNegligibleLoss - 1.0)),
-      fmt::format("{}", fmt::join(texts, "; ")), verdict_of(held)};
+      fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
 }
 
 PaperClaim binners_converge(const PaperScene& even, const PlaceErrors& found) {
@@ -320,7 +315,7 @@ PaperClaim binners_converge(const PaperScene& even, const PlaceErrors& found) {
       "half, 95 % within one standard deviation of the pulse",
       fmt::format("half within {:.1f}, 95 % within {:.1f} codes (the pulse's standard deviation has {:.1f})",
                   middle, most, sigma),
-      verdict_of({middle <= 0.5 * sigma, most <= sigma})};
+      claim_verdict({middle <= 0.5 * sigma, most <= sigma})};
 }
 
 PaperClaim binners_save_bandwidth(std::span<const PaperScene> scenes) {
@@ -344,7 +339,7 @@ PaperClaim binners_save_bandwidth(std::span<const PaperScene> scenes) {
                          "{:.2f} times (with the matched filter for the full histogram: {:.0f})",
                          scene.ratio(kCode, kFullPeak), scene.ratio(kCode, kFull));
                    }),
-          verdict_of(held)};
+          claim_verdict(held)};
 }
 
 PaperClaim equal_depth_beats_equal_width(std::span<const PaperScene> scenes) {
@@ -362,7 +357,7 @@ PaperClaim equal_depth_beats_equal_width(std::span<const PaperScene> scenes) {
                      return fmt::format("{:.2f} times (equal bins with a matched filter: {:.2f})",
                                         scene.ratio(kDepth, kWidth), scene.ratio("16 bins, matched", kWidth));
                    }),
-          verdict_of(held)};
+          claim_verdict(held)};
 }
 
 PaperClaim proportional_binners_suffice(std::span<const PaperScene> scenes) {
@@ -379,7 +374,7 @@ PaperClaim proportional_binners_suffice(std::span<const PaperScene> scenes) {
                      return fmt::format("{:.2f} and {:.2f} times", scene.ratio(kBinners, kWidth),
                                         scene.ratio(kBinners, "exact equi-depth, 16 bins"));
                    }),
-          verdict_of(held)};
+          claim_verdict(held)};
 }
 
 PaperClaim online_em_compresses(std::span<const PaperScene> scenes) {
@@ -400,7 +395,7 @@ PaperClaim online_em_compresses(std::span<const PaperScene> scenes) {
                                     scene.ratio(kCode, kFullPeak), scene.ratio(kCode, kFull),
                                     100.0 * scene.code(kCode).lost);
                }),
-      verdict_of(held)};
+      claim_verdict(held)};
 }
 
 /// Standard deviation of two correlations' place, as a share of the range.
@@ -431,7 +426,7 @@ PaperClaim correlations_in_ambient_light(const PaperClaimSettings& settings) {
       fmt::format("two triangular waves, mean of 2^{} detections; standard deviation of the place", kShift),
       fmt::format("{:.2f} % of the range ({:.2f} to {:.2f})", 100.0 * precision.value,
                   100.0 * precision.interval.low, 100.0 * precision.interval.high),
-      verdict_of({precision.value < 0.01})};
+      claim_verdict({precision.value < 0.01})};
 }
 
 PaperClaim correlations_in_the_dark(const PaperClaimSettings& settings) {
@@ -446,7 +441,7 @@ PaperClaim correlations_in_the_dark(const PaperClaimSettings& settings) {
                   kShift),
       fmt::format("{:.2f} cm ({:.2f} to {:.2f})", 100.0 * kRangeM * precision.value,
                   100.0 * kRangeM * precision.interval.low, 100.0 * kRangeM * precision.interval.high),
-      verdict_of({kRangeM * precision.value < 0.01})};
+      claim_verdict({kRangeM * precision.value < 0.01})};
 }
 
 PaperClaim windows_save_memory(const PaperClaimSettings& settings) {
@@ -468,7 +463,7 @@ PaperClaim windows_save_memory(const PaperClaimSettings& settings) {
       "beside the Cramer-Rao bound",
       fmt::format("{:.0f} times less, {:.2f} times the bound, {:.1f} % of the pixels lost", reduction,
                   window.rmse.value / scene.bound, 100.0 * window.lost),
-      verdict_of({reduction >= kClaimed && window.rmse.value <= kNegligibleLoss * scene.bound})};
+      claim_verdict({reduction >= kClaimed && window.rmse.value <= kNegligibleLoss * scene.bound})};
 }
 
 }  // namespace
@@ -491,6 +486,13 @@ std::string_view claim_verdict_word(ClaimVerdict verdict) {
       break;
   }
   return "fails";
+}
+
+ClaimVerdict claim_verdict(const std::vector<bool>& conditions) {
+  const auto held = std::ranges::count(conditions, true);
+  return held == std::ssize(conditions) ? ClaimVerdict::kHolds
+         : held > 0                     ? ClaimVerdict::kInPart
+                                        : ClaimVerdict::kFails;
 }
 
 PaperClaims judge_paper_claims(const PaperClaimSettings& settings) {
@@ -534,6 +536,7 @@ PaperClaims judge_paper_claims(const PaperClaimSettings& settings) {
                    correlations_in_ambient_light(settings),
                    correlations_in_the_dark(settings),
                    windows_save_memory(settings)};
+  std::ranges::move(judge_recent_claims(settings), std::back_inserter(result.claims));
   return result;
 }
 

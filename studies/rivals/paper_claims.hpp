@@ -39,6 +39,8 @@ struct PaperScene {
 /// Whether a claim holds under all tested conditions, under some, or under none.
 enum class ClaimVerdict { kHolds, kInPart, kFails };
 std::string_view claim_verdict_word(ClaimVerdict verdict);
+/// The verdict for the conditions of one claim, true where it holds.
+ClaimVerdict claim_verdict(const std::vector<bool>& conditions);
 
 /// A claim of a paper on its read-out, and the result of the project's model.
 struct PaperClaim {

@@ -302,8 +302,8 @@ std::string comparison_sentence(const std::map<double, ComparedScores>& lights, 
     bits = fmt::format("{} and {} bits a pixel", bits_text(scores.rows()[*a]), bits_text(scores.rows()[*b]));
   }
   return parts.empty() ? ""
-                       : fmt::format("{} beside {} ({}), pixels above 3 %: {}.", rival, other, bits,
-                                     fmt::join(parts, ", "));
+                       : fmt::format("{} compared with {} ({}), pixels with an error above 3 %: {}.", rival,
+                                     other, bits, fmt::join(parts, ", "));
 }
 
 void add_unbiased(WallCounts& counts, double wall_m, std::span<const double> measured_m) {
@@ -353,7 +353,8 @@ std::string claim_sentence(std::span<const CheckedClaim> claims) {
   }
   return fmt::format(
       "{} of {} shares agree{}.", agreeing, all,
-      others.empty() ? "" : fmt::format("; rivals with one that does not: {}", fmt::join(others, ", ")));
+      others.empty() ? ""
+                     : fmt::format("; rivals with a share that does not agree: {}", fmt::join(others, ", ")));
 }
 
 }  // namespace dtof

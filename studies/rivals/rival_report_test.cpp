@@ -96,8 +96,8 @@ TEST(RivalReport, SentencesFollowTheFigures) {
     return comparison_sentence(lights, "counter", "pointer");
   };
   EXPECT_EQ(sentence(0.30, 0.10),
-            "counter beside pointer (200 and 300 bits a pixel), pixels above 3 %: 50 klux 10.50 against "
-            "30.50 % (fewer).");
+            "counter compared with pointer (200 and 300 bits a pixel), pixels with an error above 3 %: 50 "
+            "klux 10.50 against 30.50 % (fewer).");
   EXPECT_THAT(sentence(0.10, 0.30), HasSubstr("(more)"));
   EXPECT_THAT(sentence(0.10, 0.11), HasSubstr("(no certain difference)"));
   // Half an interval is 0.0635: each share is outside the other's, but they overlap.
@@ -126,7 +126,7 @@ TEST(RivalReport, ClaimsStandBesideWhatWasMeasured) {
   EXPECT_THAT(table, HasSubstr("counter,10 / 1,10.50 "));
   EXPECT_THAT(table, HasSubstr("yes / yes,60 / 1,"));
   EXPECT_THAT(table, HasSubstr("no / yes\nadder"));
-  EXPECT_EQ(claim_sentence(claims), "7 of 8 shares agree; rivals with one that does not: counter.");
+  EXPECT_EQ(claim_sentence(claims), "7 of 8 shares agree; rivals with a share that does not agree: counter.");
   EXPECT_EQ(claim_sentence(std::span(claims).subspan(1)), "4 of 4 shares agree.");
 }
 

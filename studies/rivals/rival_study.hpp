@@ -18,8 +18,8 @@ namespace dtof {
 
 /// Reads out scenes with rivals (studies/rivals/models/rival.hpp). The photons of a scene equal those of
 /// SceneStudy and PoolStudy with the same sensor, light and seed; a rival that needs several frames gets
-/// others before them. Each rival has its own look-up table by FlatCalibration, unless the rule is
-/// TableRule::kNone.
+/// others before them, without signal events where the rival wants the laser off. Each rival has its own
+/// look-up table by FlatCalibration, unless the rule is TableRule::kNone.
 ///
 /// With `pooled` each rival has a second row, "..., pooled", in which the host combines pixels along the
 /// column. A rival with evidence gets the chain of the pooled matched filter

@@ -46,6 +46,22 @@ class CountingRival final : public Rival {
   bool tells_;
 };
 
+/// Position: detections of a frame; confidence: those of a frame before it, without laser light.
+class BackgroundRival final : public Rival {
+ public:
+  [[nodiscard]] int bits_per_pixel() const override { return 7; }
+  [[nodiscard]] RivalHardware hardware() const override { return {.word_bits = 7}; }
+  [[nodiscard]] int host_operations() const override { return 0; }
+  [[nodiscard]] int frames() const override { return 2; }
+  [[nodiscard]] int laser_off_frames() const override { return 1; }
+  [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
+    return {static_cast<std::int32_t>(frames[0].size()), static_cast<std::int32_t>(frames[1].size())};
+  }
+  [[nodiscard]] Measurement decode(std::span<const std::int32_t> words) const override {
+    return {static_cast<double>(words[1]), static_cast<double>(words[0])};
+  }
+};
+
 SensorModel short_frames() {
   SensorModel sensor = find_sensor("thesis");
   sensor.acquisitions = 600;
@@ -84,6 +100,22 @@ TEST(RivalStudy, SeesThePhotonsOfTheSceneAndOtherFramesBefore) {
     for (std::size_t row = 0; row < 5; ++row) {
       EXPECT_DOUBLE_EQ(measured[1].distance_m[row * 3 + column], scale.depth(middle[row]));
     }
+  }
+}
+
+// 600 acquisitions at 1 m have 180 events of the pulse; in the dark the SPAD has 0.3.
+TEST(RivalStudy, TakesTheFirstFramesWithoutLaserLight) {
+  const std::vector<RivalEntry> entries = {
+      {"background", "background", "made up",
+       [](const SensorModel&) -> std::unique_ptr<Rival> { return std::make_unique<BackgroundRival>(); }}};
+  const SensorModel sensor = short_frames();
+  const StudyScene scene{"wall", TargetMap(2, 4, {1.0, 1.0}), 2};
+  const RivalStudy study(sensor, 0.0, entries, false, 7, 1, TableRule::kNone);
+  const SceneMeasurement measured = study.measure(scene)[0];
+  const DepthScale scale(sensor.integration_time_s, sensor.np, sensor.pulse_fwhm_s);
+  for (std::size_t pixel = 0; pixel < measured.distance_m.size(); ++pixel) {
+    EXPECT_GT(measured.distance_m[pixel], scale.depth(100.0));
+    EXPECT_LT(measured.confidence[pixel], 10.0);
   }
 }
 

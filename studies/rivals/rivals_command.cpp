@@ -182,9 +182,11 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
   std::string report = fmt::format(
       "# Read-outs and their rivals\n\nPer cent of pixels with a relative error above 3 % and above 10 "
       "%, sensor {}, seeds {} to {} (photons and random shapes), at most {} columns of a scene. All "
-      "rows see the same photons. +- is half of the 95 % interval, from the spread of the seeds, and "
-      "at least that of independent pixels. Edges: pixels with a neighbour that differs by more than "
-      "10 %; single pixels: pixels that differ from all their neighbours. Scenes \"held\": no "
+      "rows see the same photons; a rival whose result needs several frames also sees frames before them, "
+      "and the linearised average a frame without laser light. +- is half of the 95 % interval, from the "
+      "spread of the seeds, and at least that of independent pixels. Edges: pixels with a neighbour "
+      "that differs by more than 10 %; single pixels: pixels that differ from all their neighbours. "
+      "Scenes \"held\": no "
       "parameter of poolPointer was chosen on them. Bits: the pixel's memory only. \"pooled\": the "
       "host combines the pixels of a column. References have full histograms, which no chip could "
       "hold.\n\n{}\n\nCommand: `{}`\n",
@@ -194,7 +196,8 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
     report += fmt::format("\n{}\n", note);
   }
   report +=
-      "\n## Beside each other\n\nAll scenes but the flats together; rivals on the front of some light.\n";
+      "\n## Beside each other\n\nAll scenes except the flat targets together. The list has the rivals that "
+      "are on the front of at least one light (section Front).\n";
   for (const std::string& title : rivals_on_a_front(lights)) {
     for (const Readout other : {Readout::kHisPointer, Readout::kPoolPointer}) {
       const std::string sentence = comparison_sentence(lights, title, std::string(readout_title(other)));

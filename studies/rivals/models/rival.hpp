@@ -53,6 +53,8 @@ class Rival {
   [[nodiscard]] virtual int host_operations() const = 0;
   /// Frames per result; all of them see the same scene.
   [[nodiscard]] virtual int frames() const { return 1; }
+  /// The first frames of a result that are taken without laser light; fewer than frames().
+  [[nodiscard]] virtual int laser_off_frames() const { return 0; }
 
   /// The chip's part, in integers. `frames` holds frames() frames; the no-detection code is dropped. Throws
   /// InputError for a timestamp above 2^NP - 1 or an acquisition outside the frame.

@@ -2,11 +2,15 @@
 // The one list of rivals: tables, options and tests take them from here, in this order.
 #include <array>
 
+#include "rivals/models/cfar_detector.hpp"
 #include "rivals/models/coarse_histogram.hpp"
 #include "rivals/models/equi_depth.hpp"
+#include "rivals/models/equi_depth_fit.hpp"
 #include "rivals/models/guided_window.hpp"
 #include "rivals/models/linear_code.hpp"
+#include "rivals/models/linearised_average.hpp"
 #include "rivals/models/online_em.hpp"
+#include "rivals/models/optimised_code.hpp"
 #include "rivals/models/rival.hpp"
 
 namespace dtof {
@@ -28,6 +32,14 @@ constexpr std::string_view kOnlineEm =
     "Poisson, Guicquero, Coriat and Sicard, a 2-stage EM algorithm for online peak detection (CEA-Leti)";
 constexpr std::string_view kSketch = "Sheehan, Tachella and Davies, arXiv 2102.08732";
 constexpr std::string_view kSpline = "arXiv 2210.07314";
+constexpr std::string_view kLinearised =
+    "Tontini et al., IEEE Sensors Journal 24(4), 2024 (arXiv 2310.09176)";
+constexpr std::string_view kAsynchronous = "Liu et al., arXiv 2509.19192; ISCAS 2025";
+constexpr std::string_view kOptimised =
+    "an optimisation of this project, in place of the learned code of Feng et al., IEEE Sensors Journal 2025 "
+    "(doi 10.1109/JSEN.2025.3575784), which is not public";
+constexpr std::string_view kHighFlux =
+    "Sadekar et al., High-Flux Count-Free Single-Photon 3D Cameras, ICCP 2025";
 
 template <int kParts>
 Made hierarchical(const Sensor& sensor) {
@@ -57,6 +69,14 @@ template <int kSize>
 Made sketch(const Sensor& sensor) {
   return make_sketch(sensor, kSize);
 }
+template <bool kEarly>
+Made cfar(const Sensor& sensor) {
+  return make_cfar_detector(sensor, {.early = kEarly});
+}
+template <int kParts>
+Made fitted(const Sensor& sensor) {
+  return make_fitted_equi_depth(sensor, kParts);
+}
 template <int kKnots, int kCountBits>
 Made spline(const Sensor& sensor) {
   return make_spline_sketch(sensor, kKnots, kCountBits);
@@ -70,6 +90,7 @@ constexpr std::array kRivals = std::to_array<RivalEntry>({
     {"median", "equi-depth, one binner", kEquiDepth, hierarchical<2>},
     {"hedh4", "HEDH-4", kProportional, hierarchical<4>, RivalClaim{{25.0, 25.0}, {42.0, 37.0}}},
     {"hedh16", "HEDH-16", kProportional, hierarchical<16>},
+    {"hedh16-fitted", "HEDH-16, fitted", kHighFlux, fitted<16>},
     {"pedh2", "PEDH-2", kProportional, proportional<2, false>, RivalClaim{{9.0, 0.0}, {26.0, 0.0}}},
     {"pedh4", "PEDH-4", kProportional, proportional<4, false>, RivalClaim{{48.0, 36.0}, {31.0, 18.0}}},
     {"pedh8", "PEDH-8", kProportional, proportional<8, false>, RivalClaim{{60.0, 44.0}, {48.0, 41.0}}},
@@ -88,6 +109,8 @@ constexpr std::array kRivals = std::to_array<RivalEntry>({
     {"gray8-3bit", "Gray-Fourier K = 8, 3 bits", kCompressive, gray<8, 3>},
     {"gray8-2bit", "Gray-Fourier K = 8, 2 bits", kCompressive, gray<8, 2>},
     {"gray8-1bit", "Gray-Fourier K = 8, 1 bit", kCompressive, gray<8, 1>},
+    {"optimised8", "optimised harmonics K = 8", kOptimised,
+     [](const Sensor& sensor) { return make_optimised_code(sensor, 8); }},
     {"signs", "sign-Fourier, harmonics 1 and 4", kCompressive, signs_of_two_harmonics,
      RivalClaim{{57.4, 22.6}, {86.8, 53.4}}},
 
@@ -102,6 +125,10 @@ constexpr std::array kRivals = std::to_array<RivalEntry>({
     {"sketch4", "sketch M = 4", kSketch, sketch<4>},
     {"spline4", "spline sketch m = 4", kSpline, spline<4, 12>, RivalClaim{{61.2, 18.2}, {74.6, 21.6}}},
     {"spline16", "spline sketch m = 16", kSpline, spline<16, 11>, RivalClaim{{1.6, 0.0}, {8.6, 2.6}}},
+
+    {"linearised", "linearised average", kLinearised, make_linearised_average},
+    {"cfar", "CFAR detector, first report", kAsynchronous, cfar<true>},
+    {"cfar-frame", "CFAR detector, whole frame", kAsynchronous, cfar<false>},
 });
 
 }  // namespace
