@@ -23,7 +23,7 @@ std::string name_of(const ReadoutParameters& parameters, const SensorModel& sens
   return command_options(parameters, sensor).substr(std::string("--readout ").size());
 }
 
-double mean(std::span<const double> values) {
+double mean_share(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
@@ -63,7 +63,7 @@ class Judge {
       }
     }
     for (const std::vector<std::vector<double>>& lights : by_light) {
-      found.shares.push_back(*std::ranges::max_element(lights, {}, mean));
+      found.shares.push_back(*std::ranges::max_element(lights, {}, mean_share));
     }
     return found;
   }
@@ -163,9 +163,9 @@ Verdict SensorJudgement::verdict() const {
 }
 
 Estimate share_ratio(std::span<const double> chosen, std::span<const double> best, std::uint64_t pixels) {
-  const double mean_best = mean(best);
+  const double mean_best = mean_share(best);
   const double floor = std::max(mean_best, 1.0 / static_cast<double>(pixels));
-  const double value = std::max(mean(chosen), 1.0 / static_cast<double>(pixels)) / floor;
+  const double value = std::max(mean_share(chosen), 1.0 / static_cast<double>(pixels)) / floor;
   std::vector<double> residuals;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     residuals.push_back((chosen[i] - value * best[i]) / floor);
@@ -208,7 +208,8 @@ SensorJudgement judge_sensor(const JudgementSettings& settings, const DesignRequ
   std::size_t best = 0;
   for (std::size_t c = 1; c < finalists.size(); ++c) {
     // A recommendation that misses a limit is no candidate.
-    if ((best == 0 && !judgement.keeps_limits) || mean(final.shares[c]) < mean(final.shares[best])) {
+    if ((best == 0 && !judgement.keeps_limits) ||
+        mean_share(final.shares[c]) < mean_share(final.shares[best])) {
       best = c;
     }
   }

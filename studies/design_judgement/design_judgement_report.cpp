@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPerCent = 100.0;
 
-std::string share_text(double share) { return fmt::format("{:.3f}", kPerCent * share); }
+std::string share_percent(double share) { return fmt::format("{:.3f}", kPerCent * share); }
 
 std::string ratio_text(const Estimate& ratio) {
   return fmt::format("{:.3f} [{:.3f}, {:.3f}]", ratio.value, ratio.interval.low, ratio.interval.high);
@@ -34,7 +34,7 @@ std::size_t count(const std::vector<JudgedSensor>& judged, Verdict verdict) {
       judged, [=](const JudgedSensor& one) { return one.judgement.verdict() == verdict; }));
 }
 
-std::string answer(const std::vector<JudgedSensor>& judged) {
+std::string judgement_answer(const std::vector<JudgedSensor>& judged) {
   const std::size_t within = count(judged, Verdict::kWithin);
   const std::size_t undecided = count(judged, Verdict::kUndecided);
   return fmt::format(
@@ -53,8 +53,8 @@ Table sensor_table(const std::vector<JudgedSensor>& judged) {
     const SensorJudgement& one = judged[i].judgement;
     table.add({fmt::format("{}", i + 1), one.recommended.name,
                one.lost == Lost::kNothing ? "the same" : one.best.name, verdict_text(one.verdict()),
-               ratio_text(one.ratio), share_text(one.recommended.share.value),
-               share_text(one.best.share.value), fmt::format("{:.3g}", one.recommended.mm2),
+               ratio_text(one.ratio), share_percent(one.recommended.share.value),
+               share_percent(one.best.share.value), fmt::format("{:.3g}", one.recommended.mm2),
                fmt::format("{:.3g}", one.best.mm2),
                one.keeps_limits ? fmt::format("{} of {}", one.recommended.place, one.kept) : "-"});
   }
@@ -66,8 +66,8 @@ std::string reason(const SensorJudgement& one) {
   if (!one.keeps_limits) {
     return "the recommendation misses a limit";
   }
-  const std::string best = share_text(one.search_best);
-  const std::string other = share_text(one.search_other);
+  const std::string best = share_percent(one.search_best);
+  const std::string other = share_percent(one.search_other);
   const bool smaller = one.search_best <= one.search_other;
   switch (one.lost) {
     case Lost::kNotRead:
@@ -166,7 +166,7 @@ std::string judgement_report(const JudgementSettings& settings, const std::vecto
       "## Sensors\n\nSignal: events a pulse from a white target at R in m. The command writes each sensor "
       "file "
       "to `sensors/` in its output folder.\n\n{}\nCommand: `{}`\n",
-      answer(judged), sensor_table(judged).markdown(), kGoodRatio, kGoodRatio, misses(judged),
+      judgement_answer(judged), sensor_table(judged).markdown(), kGoodRatio, kGoodRatio, misses(judged),
       fmt::join(scenes, " and "), fmt::join(usual.bench.klux, " and "), usual.bench.seed,
       settings.sweep_pixels, settings.finalists, settings.final_seeds, settings.final_pixels, settings.seed,
       ranges_text(settings.ranges), sensors_text(judged), command_line);

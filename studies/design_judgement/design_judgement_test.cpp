@@ -107,6 +107,8 @@ TEST(DesignJudgement, ARecommendationBeyondALimitIsBad) {
 
 TEST(DesignJudgement, SaysWhereTheSearchLostTheBest) {
   JudgementSettings settings = small_settings();
+  settings.final_seeds = 2;
+  settings.finalists = 1000;  // all candidates, so that the best does not depend on the recommendation
   const auto judged_with = [&](const std::function<DesignResult(const DesignRequest&)>& design) {
     settings.design = design;
     return judge_sensor(settings, small_request(), 1);

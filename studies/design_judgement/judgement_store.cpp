@@ -13,7 +13,7 @@
 namespace dtof {
 namespace {
 
-std::string exact(double value) { return fmt::format("{:.17g}", value); }
+std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
 
 /// Adds fields to a line, and their names to the header.
 class Line {
@@ -22,7 +22,7 @@ class Line {
     names_.push_back(name);
     values_.push_back(value);
   }
-  void add(const std::string& name, double value) { add(name, exact(value)); }
+  void add(const std::string& name, double value) { add(name, exact_text(value)); }
   void add(const std::string& name, const Estimate& estimate) {
     add(name, estimate.value);
     add(name + "_low", estimate.interval.low);
