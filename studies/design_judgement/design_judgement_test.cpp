@@ -50,7 +50,9 @@ DesignOption option_of(const ReadoutParameters& parameters, double share) {
   DesignOption option;
   option.candidate.array = {.parameters = parameters, .rows = 16, .columns = 16};
   option.candidate.cost.mm2 = 0.5;
-  option.screened.lights.push_back({.klux = 5.0, .above_3_percent = {share, {share, share}}});
+  LightScore light;
+  light.above_3_percent = {share, {share, share}};
+  option.screened.lights = {light};
   return option;
 }
 
@@ -257,7 +259,7 @@ TEST(DesignJudgement, TheReportBeginsWithTheAnswerAndGivesReasons) {
   EXPECT_THAT(report, HasSubstr("Command: `dtof-study design-judgement`"));
   EXPECT_EQ(judgement_csv(judged).cells().size(), 4U);
   const std::vector<PlotSeries> curves = judgement_curves(judged);
-  EXPECT_EQ(curves.front().y, (std::vector<double>(3, 1.1)));
+  EXPECT_THAT(curves.front().y, testing::Each(testing::DoubleNear(1.1, 1e-9)));
 }
 
 TEST(DesignJudgement, RefusesWhatMakesNoJudgement) {
