@@ -65,7 +65,7 @@ struct JudgementSettings {
   std::uint64_t seed = 1;  ///< of the sensors; the judge's photons have seeds that follow from it
   int threads = 0;
   double sweep_pixels = 6000.0;   ///< at least, for each candidate and light
-  double final_pixels = 10000.0;  ///< at least, for each finalist, light and seed
+  double final_pixels = 12000.0;  ///< at least, for each finalist, light and seed
   int final_seeds = 6;            ///< at least 2
   int finalists = 8;              ///< the best of the sweep that are read again, at least 1
   /// Makes the recommendation. Tests plant another one.

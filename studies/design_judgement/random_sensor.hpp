@@ -13,7 +13,7 @@ namespace dtof {
 struct SensorRanges {
   int most_columns = 128;                  ///< from kLeastColumns
   int most_rows = 96;                      ///< from kLeastRows
-  std::uint32_t most_acquisitions = 2000;  ///< from kLeastAcquisitions
+  std::uint32_t most_acquisitions = 3333;  ///< from kLeastAcquisitions
 };
 inline constexpr int kLeastColumns = 16;
 inline constexpr int kLeastRows = 12;
