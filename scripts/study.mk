@@ -114,8 +114,10 @@ else
 endif
 
 design-judgement: study-program
+	@scripts/reports.py begin design_judgement
 	@$(DTOF_STUDY) design-judgement $(if $(SMALL),--sensors 1 --most-columns 20 --most-rows 16 --most-acquisitions 300 --sweep-pixels 500 \
 	  --final-pixels 500 --final-seeds 2 --finalists 2) --seed $(SEED) --out $(OUT)/design_judgement
+	@scripts/publish.py design_judgement
 
 frames: study-program
 ifeq ($(SMALL),1)
