@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include "design_judgement/judgement_store.hpp"
 #include "dtof/core/error.hpp"

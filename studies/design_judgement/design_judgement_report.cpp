@@ -39,10 +39,8 @@ std::string judgement_answer(const std::vector<JudgedSensor>& judged) {
   const std::size_t undecided = count(judged, Verdict::kUndecided);
   return fmt::format(
       "**For {} of {} random sensors the recommendation of `dtof design` is within 5 % of the best of a full "
-      "sweep.** For {} more the ratio is larger, but its interval reaches 5 %: {} of {} are within 5 % or "
-      "not "
-      "told from it. For {} the recommendation is worse beyond the interval.\n",
-      within, judged.size(), undecided, within + undecided, judged.size(), count(judged, Verdict::kBeyond));
+      "sweep.** Within 5 % or not told from it by the interval: {} of {}. Worse beyond the interval: {}.\n",
+      within, judged.size(), within + undecided, judged.size(), count(judged, Verdict::kBeyond));
 }
 
 Table sensor_table(const std::vector<JudgedSensor>& judged) {
@@ -72,8 +70,7 @@ std::string reason(const SensorJudgement& one) {
   switch (one.lost) {
     case Lost::kNotRead:
       return "the search did not read the best; it reads each set of parameters only with the most SLOTS "
-             "that "
-             "keep the limits";
+             "that keep the limits";
     case Lost::kInScreening:
       return smaller ? fmt::format(
                            "in the search's one frame the best had {} % and other parameters of its "
@@ -144,8 +141,7 @@ std::string judgement_report(const JudgementSettings& settings, const std::vecto
       "therefore give up a few per cent of the share for area on purpose.\n\n"
       "## How it is judged\n\n"
       "* Recommendation: the function that `dtof design` calls, with the default options and the options of "
-      "the "
-      "sensor in the list below; scenes {}, {} klux, seed {}.\n"
+      "the sensor in the list below; scenes {}, {} klux, seed {}.\n"
       "* Objective: the share of pixels that are more than 3 % off in the worst light, among the candidates "
       "that keep the limits of area, power, frame rate and clock. `dtof design` minimises this share.\n"
       "* Sweep: all candidates of the grid that keep the limits, with every value of SLOTS; the search reads "
@@ -153,19 +149,16 @@ std::string judgement_report(const JudgementSettings& settings, const std::vecto
       "estimates. Each candidate is read in at least {:g} pixels a light.\n"
       "* Final: the {} best of the sweep and the recommendation are read again with {} seeds, at least {:g} "
       "pixels a seed and light. The best is the smallest share in the final. The sweep, the final and the "
-      "search "
-      "have different seeds: photons, look-up tables and poles differ.\n"
+      "search have different seeds: photons, look-up tables and poles differ.\n"
       "* Ratio: share of the recommendation over the best share, both means over the seeds of the final, "
-      "with "
-      "an interval at 95 % (delta method over pairs with the same seed). A share below one pixel counts as "
-      "one pixel. The best is the smallest of several measured shares, which makes the ratio larger, never "
-      "smaller.\n"
+      "with an interval at 95 % (delta method over pairs with the same seed). A share below one pixel counts "
+      "as one pixel. The best is the smallest of several measured shares, so that the ratio is at least 1, "
+      "and too large rather than too small.\n"
       "* Sensors: drawn from seed {}; most numbers evenly in their logarithm: {}. A quarter of the draws has "
       "no limit but the default frame rate, a quarter each a limit of area or power or a high frame rate; "
       "the limit is a random quantile, 15 to 85 %, of the grid's costs.\n\n"
       "## Sensors\n\nSignal: events a pulse from a white target at R in m. The command writes each sensor "
-      "file "
-      "to `sensors/` in its output folder.\n\n{}\nCommand: `{}`\n",
+      "file to `sensors/` in its output folder.\n\n{}\nCommand: `{}`\n",
       judgement_answer(judged), sensor_table(judged).markdown(), kGoodRatio, kGoodRatio, misses(judged),
       fmt::join(scenes, " and "), fmt::join(usual.bench.klux, " and "), usual.bench.seed,
       settings.sweep_pixels, settings.finalists, settings.final_seeds, settings.final_pixels, settings.seed,

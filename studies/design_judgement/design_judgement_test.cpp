@@ -249,7 +249,9 @@ TEST(DesignJudgement, TheReportBeginsWithTheAnswerAndGivesReasons) {
   }
   const std::string report = judgement_report(small_settings(), judged, "dtof-study design-judgement");
   EXPECT_THAT(report, HasSubstr("**For 1 of 3 random sensors"));
-  EXPECT_THAT(report, HasSubstr("2 of 3 are within 5 % or not told from it"));
+  EXPECT_THAT(
+      report,
+      HasSubstr("Within 5 % or not told from it by the interval: 2 of 3. Worse beyond the interval: 1."));
   EXPECT_THAT(report,
               HasSubstr("* 2 (undecided): sifh --nb 5 instead of poolpointer. Reason: in the search's "
                         "last frames the best had 1.230 % and the recommendation 1.450 %"));

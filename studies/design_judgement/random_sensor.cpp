@@ -182,11 +182,9 @@ std::string sensor_line(const SensorModel& sensor) {
 std::string ranges_text(const SensorRanges& ranges) {
   return fmt::format(
       "columns {} to {}, rows {} to {}, range {:g} to {:g} ns, NP 8 to 12, SLOTS 1 to 3, acquisitions {} to "
-      "{}, "
-      "pulse {:g} to {:g} ns (at most a twelfth of the range), {:g} to {:g} signal events a frame from a "
-      "white "
-      "target at the range's end, {:g} to {:g} background events a range at {:g} klux, reflectivity {:g} to "
-      "{:g}",
+      "{}, pulse {:g} to {:g} ns (at most a twelfth of the range), {:g} to {:g} signal events a frame from a "
+      "white target at the range's end, {:g} to {:g} background events a range at {:g} klux, reflectivity "
+      "{:g} to {:g}",
       kLeastColumns, ranges.most_columns, kLeastRows, ranges.most_rows, kRangeNs.low, kRangeNs.high,
       kLeastAcquisitions, ranges.most_acquisitions, kPulseNs.low, kPulseNs.high, kFarEvents.low,
       kFarEvents.high, kBackground.low, kBackground.high, kReferenceKlux, kReflectivity.low,
