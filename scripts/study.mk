@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-.PHONY: claims detection dynamic-range hostile-scenes frames leaderboard pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
+.PHONY: claims design-judgement detection dynamic-range hostile-scenes frames leaderboard pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SMALL_SCENES := $(if $(SMALL),--klux 14 --columns 8)
 SMALL_POOL := $(if $(SMALL),--klux 14 --scene planes --seeds 2)
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
@@ -112,6 +112,12 @@ else
 	@$(DTOF_STUDY) detection --seed $(SEED) --out $(OUT)/detection
 	@scripts/publish.py detection
 endif
+
+design-judgement: study-program
+	@scripts/reports.py begin design_judgement
+	@$(DTOF_STUDY) design-judgement $(if $(SMALL),--sensors 1 --most-columns 20 --most-rows 16 --most-acquisitions 300 --sweep-pixels 500 \
+	  --final-pixels 500 --final-seeds 2 --finalists 2) --seed $(SEED) --out $(OUT)/design_judgement
+	@scripts/publish.py design_judgement
 
 frames: study-program
 ifeq ($(SMALL),1)
