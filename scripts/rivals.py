@@ -39,7 +39,7 @@ INDOORS, SUN = "2", "50"  # klux
 @dataclass(frozen=True)
 class Sensor:
     title: str
-    name: str  # a preset, or a file beside this script
+    name: str  # a preset, or a file below studies/
     distance_scale: float  # of the scenes, which are made for 45 ns
 
 
@@ -263,6 +263,11 @@ def folder_of(sensor: Sensor) -> str:
     return Path(sensor.name).stem
 
 
+def argument_of(sensor: Sensor) -> str:
+    """What --sensor takes."""
+    return str(ROOT / "studies" / sensor.name) if sensor.name.endswith(".toml") else sensor.name
+
+
 def report(folder: Path) -> None:
     lights = points_of(folder / "rivals.csv")
     draw(folder, lights)
@@ -294,8 +299,7 @@ def main() -> None:
     study, folder = sys.argv[1], Path(sys.argv[3])
     run(study, sys.argv[2:])
     for sensor in SENSORS:
-        file = ROOT / "scripts" / sensor.name
-        run(study, ["--sensor", str(file) if file.is_file() else sensor.name, "--distance-scale", f"{sensor.distance_scale:g}",
+        run(study, ["--sensor", argument_of(sensor), "--distance-scale", f"{sensor.distance_scale:g}",
                     *SENSOR_OPTIONS, "--out", str(folder / folder_of(sensor))])
     report(folder)
     print(f"{folder / 'report.md'} written")

@@ -74,6 +74,12 @@ class Picture(unittest.TestCase):
         self.assertIn(f"| mine | in the sun, 50 klux | - | - | - | 32-bin histogram: 10.00 +-7.50 ({area}) |", section)
         self.assertIn("Number of cells in which a read-out is the best one, of 1 in all: 32-bin histogram 1.", section)
 
+    def test_sensors_are_files_or_presets(self) -> None:
+        presets = {path.stem for path in (rivals.ROOT / "models/dtof/sensor/presets").glob("*.toml")}
+        for sensor in rivals.SENSORS:
+            argument = rivals.argument_of(sensor)
+            self.assertTrue(argument in presets or Path(argument).is_file(), argument)
+
     def test_the_report_has_the_sections_before_the_lights(self) -> None:
         folder = self.path.parent
         self.with_hardware()

@@ -26,7 +26,7 @@
 namespace dtof {
 namespace {
 
-constexpr int kCalibrationPixels = 32;  // of each distance
+constexpr int kTablePixels = 32;  // of each distance
 constexpr int kWideCounters = 16;
 
 struct Limit {
@@ -68,8 +68,8 @@ struct Judged {
 
   [[nodiscard]] bool above(double share) const { return std::abs(measured_m - truth_m) > share * truth_m; }
 };
-constexpr double kThree = 0.03;
-constexpr double kTen = 0.10;
+constexpr double kAboveThree = 0.03;
+constexpr double kAboveTen = 0.10;
 
 RangeCounts& operator+=(RangeCounts& sum, const RangeCounts& part) {
   sum.pixels += part.pixels;
@@ -207,7 +207,7 @@ RangeReadouts measure_range_cell(const RangeSettings& settings, const RangeCell&
   const std::uint64_t first_seed =
       settings.seed + static_cast<std::uint64_t>(cell.repeat) * static_cast<std::uint64_t>(settings.seeds);
   const std::vector<RangeConverter> tables =
-      FlatCalibration(sensor, kCalibrationPixels)
+      FlatCalibration(sensor, kTablePixels)
           .fit(
               [&](const TargetMap& targets) {
                 return std::make_unique<PhotonSource>(sensor, targets, cell.klux, first_seed,
@@ -246,8 +246,8 @@ RangeReadouts measure_range_cell(const RangeSettings& settings, const RangeCell&
               results[r][static_cast<std::size_t>(column)][static_cast<std::size_t>(row)];
           const Judged judged = measured(r);
           RangeCounts pixel = {.pixels = 1,
-                               .above_3_percent = one_if(judged.above(kThree)),
-                               .above_10_percent = one_if(judged.above(kTen)),
+                               .above_3_percent = one_if(judged.above(kAboveThree)),
+                               .above_10_percent = one_if(judged.above(kAboveTen)),
                                .full = one_if(full && result.confidence == *full)};
           pixel.full_above_3_percent = pixel.full * pixel.above_3_percent;
           if (wide_of[r] != 0) {
@@ -255,8 +255,8 @@ RangeReadouts measure_range_cell(const RangeSettings& settings, const RangeCell&
                 results[wide_of[r]][static_cast<std::size_t>(column)][static_cast<std::size_t>(row)];
             const Judged judged_wide = measured(wide_of[r]);
             pixel.changed = one_if(other.code != result.code || other.fraction != result.fraction);
-            pixel.wide_above_3_percent = one_if(judged_wide.above(kThree));
-            pixel.wide_above_10_percent = one_if(judged_wide.above(kTen));
+            pixel.wide_above_3_percent = one_if(judged_wide.above(kAboveThree));
+            pixel.wide_above_10_percent = one_if(judged_wide.above(kAboveTen));
           }
           own += pixel;
         }
