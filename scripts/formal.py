@@ -29,6 +29,11 @@ HDL = ROOT / "hdl"
 FORMAL = ROOT / "formal"
 BUILD = ROOT / "build" / "formal"
 REPORT = ROOT / "reports" / "formal.md"
+# Modules that harnesses instantiate beside the design.
+RULES = (
+    "arbitrary_value", "axi_stream_rules", "axi_lite_rules", "apb_rules", "ez_pointer_reference", "his_pointer_reference",
+    "result_word_rules",
+)
 ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in the report, rounded up
 
 SEARCH_FRAMES = 180  # for a planted bug or a goal where the proof itself has no bound
@@ -61,6 +66,15 @@ write_aiger -I -B -L -zinit -symbols -map model.aim model.aig
 # With a free clock a step of the model is a moment, and clocks are inputs like others.
 ONE_CLOCK = {"registers": "chformal -early\nasync2sync", "legalize": "dfflegalize -cell $_DFF_P_ 01"}
 FREE_CLOCK = {"registers": "clk2fflogic", "legalize": ""}
+# Flip-flops behind a clock gate become $ff, which keep their value without an edge; the others stay.
+GATED_CLOCK = {
+    "registers": f"""dffunmap
+select -set gated t:$dff t:$adff %u i:clk_i %co1 %d
+techmap -map {FORMAL}/gated_clock.v @gated
+opt_clean
+{ONE_CLOCK["registers"]}""",
+    "legalize": ONE_CLOCK["legalize"],
+}
 SIMULATE_SCRIPT = """
 read_rtlil model.il
 sim -q -r counterexample.aiw -map model.aim -vcd counterexample.vcd {clock}
@@ -96,6 +110,7 @@ class Proof:
     goal: str = ""  # what is reached in a run of its own
     goal_parameters: dict[str, int] | None = None
     quick: bool = False
+    gated_clock: bool = False  # the design has a clock gate; a step is a clock all the same (formal/dtof_clock_gate.sv)
     free_clock: bool = False  # a step is a moment instead of a clock, and clocks are inputs like any other
     timeout: int = 240  # seconds of processor time a tool may take
 
@@ -164,7 +179,7 @@ def design_files() -> list[Path]:
     lines = (HDL / "dtof.f").read_text().splitlines()
     files = [HDL / line for line in lines if line.endswith(".sv") and not line.startswith(("//", "technology/"))]
     stand_ins = sorted(FORMAL.glob("dtof_*.sv"))
-    rules = [FORMAL / f"{name}.sv" for name in ("arbitrary_value", "axi_stream_rules", "axi_lite_rules", "apb_rules")]
+    rules = [FORMAL / f"{name}.sv" for name in RULES]
     return [file for file in files if file.name not in {one.name for one in stand_ins}] + stand_ins + rules
 
 
@@ -241,6 +256,12 @@ def failing_assertion(proof: Proof, folder: Path) -> str:
     return failed[-1 if proof.free_clock else 0].split(".", 1)[1]
 
 
+def registers_of(proof: Proof) -> dict[str, str]:
+    if proof.gated_clock:
+        return GATED_CLOCK
+    return FREE_CLOCK if proof.free_clock else ONE_CLOCK
+
+
 def solve(job: Job) -> Outcome:
     """The outcome of a run. Reused if an earlier run had the same sources and commands."""
     proof, folder = job.proof, job.folder()
@@ -250,7 +271,7 @@ def solve(job: Job) -> Outcome:
         files = with_bug(files, job.bug, folder)
     script = YOSYS_SCRIPT.format(
         defines="-DFIND_GOAL" if job.kind == "goal" else "", hdl=HDL, formal=FORMAL, sources=" ".join(map(str, files)),
-        harness=proof.harness, **(FREE_CLOCK if proof.free_clock else ONE_CLOCK),
+        harness=proof.harness, **registers_of(proof),
         parameters="".join(f"chparam -set {name} {value} {proof.harness}; " for name, value in job.parameters.items()),
     )
     unbounded = job.kind == "prove" and proof.frames is None
