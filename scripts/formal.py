@@ -29,6 +29,7 @@ HDL = ROOT / "hdl"
 FORMAL = ROOT / "formal"
 BUILD = ROOT / "build" / "formal"
 REPORT = ROOT / "reports" / "formal.md"
+GATED_FLIP_FLOPS = FORMAL / "gated_clock.v"
 # Modules that harnesses instantiate beside the design.
 RULES = (
     "arbitrary_value", "axi_stream_rules", "axi_lite_rules", "apb_rules", "ez_pointer_reference", "his_pointer_reference",
@@ -66,14 +67,15 @@ write_aiger -I -B -L -zinit -symbols -map model.aim model.aig
 # With a free clock a step of the model is a moment, and clocks are inputs like others.
 ONE_CLOCK = {"registers": "chformal -early\nasync2sync", "legalize": "dfflegalize -cell $_DFF_P_ 01"}
 FREE_CLOCK = {"registers": "clk2fflogic", "legalize": ""}
-# Flip-flops behind a clock gate become $ff, which keep their value without an edge; the others stay.
+# Flip-flops behind a clock gate keep their value in a clock without an edge. All become $ff, as a clock is a step.
 GATED_CLOCK = {
     "registers": f"""dffunmap
 select -set gated t:$dff t:$adff %u i:clk_i %co1 %d
-techmap -map {FORMAL}/gated_clock.v @gated
+techmap -map {GATED_FLIP_FLOPS} @gated
 opt_clean
-{ONE_CLOCK["registers"]}""",
-    "legalize": ONE_CLOCK["legalize"],
+{ONE_CLOCK["registers"]}
+formalff -clk2ff""",
+    "legalize": "",
 }
 SIMULATE_SCRIPT = """
 read_rtlil model.il
@@ -247,6 +249,9 @@ def failing_assertion(proof: Proof, folder: Path) -> str:
     # All registers are 0 before the first clock, those that ABC has dropped as well.
     registers = int((folder / "model.aig").read_bytes().split(maxsplit=4)[3])
     (folder / "counterexample.aiw").write_text("\n".join(["1", "b0", "0" * registers, *inputs, "."]) + "\n")
+    if proof.gated_clock:  # the simulator needs flip-flops with a clock
+        model = (folder / "model.il").read_text()
+        (folder / "model.il").write_text(re.sub(r"cell \$_FF_ (\S+)\n", r"cell $_DFF_P_ \1\n    connect \\C \\clk_i\n", model))
     script = SIMULATE_SCRIPT.format(clock="-multiclock" if proof.free_clock else "-clock clk_i")
     log, _ = run_tool(["yosys", "-p", script], folder, "simulate.log", SIMULATE_SECONDS)
     failed = FAILED.findall(log)
@@ -280,7 +285,7 @@ def solve(job: Job) -> Outcome:
     swept = job.kind == "prove"
     engine = f"{'scorr; write_aiger swept.aig; ' if swept else ''}{'pdr' if unbounded else f'bmc3 -F {frames}'}"
 
-    headers = (*HDL.glob("common/*.svh"), *FORMAL.glob("*.svh"))
+    headers = (*HDL.glob("common/*.svh"), *FORMAL.glob("*.svh"), *((GATED_FLIP_FLOPS,) if proof.gated_clock else ()))
     texts = [script, engine, *(" ".join(without_comments(file.read_text()).split()) for file in (*files, *headers))]
     key = hashlib.sha256("\0".join(texts).encode()).hexdigest()
     kept = folder / "outcome.json"
