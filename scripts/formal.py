@@ -29,6 +29,12 @@ HDL = ROOT / "hdl"
 FORMAL = ROOT / "formal"
 BUILD = ROOT / "build" / "formal"
 REPORT = ROOT / "reports" / "formal.md"
+GATED_FLIP_FLOPS = FORMAL / "gated_clock.v"
+# Modules that harnesses instantiate beside the design.
+RULES = (
+    "arbitrary_value", "axi_stream_rules", "axi_lite_rules", "apb_rules", "ez_pointer_reference", "his_pointer_reference",
+    "result_word_rules",
+)
 ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in the report, rounded up
 
 SEARCH_FRAMES = 180  # for a planted bug or a goal where the proof itself has no bound
@@ -61,6 +67,16 @@ write_aiger -I -B -L -zinit -symbols -map model.aim model.aig
 # With a free clock a step of the model is a moment, and clocks are inputs like others.
 ONE_CLOCK = {"registers": "chformal -early\nasync2sync", "legalize": "dfflegalize -cell $_DFF_P_ 01"}
 FREE_CLOCK = {"registers": "clk2fflogic", "legalize": ""}
+# Flip-flops behind a clock gate keep their value in a clock without an edge. All become $ff, as a clock is a step.
+GATED_CLOCK = {
+    "registers": f"""dffunmap
+select -set gated t:$dff t:$adff %u i:clk_i %co1 %d
+techmap -map {GATED_FLIP_FLOPS} @gated
+opt_clean
+{ONE_CLOCK["registers"]}
+formalff -clk2ff""",
+    "legalize": "",
+}
 SIMULATE_SCRIPT = """
 read_rtlil model.il
 sim -q -r counterexample.aiw -map model.aim -vcd counterexample.vcd {clock}
@@ -96,6 +112,7 @@ class Proof:
     goal: str = ""  # what is reached in a run of its own
     goal_parameters: dict[str, int] | None = None
     quick: bool = False
+    gated_clock: bool = False  # the design has a clock gate; a step is a clock all the same (formal/dtof_clock_gate.sv)
     free_clock: bool = False  # a step is a moment instead of a clock, and clocks are inputs like any other
     timeout: int = 240  # seconds of processor time a tool may take
 
@@ -164,7 +181,7 @@ def design_files() -> list[Path]:
     lines = (HDL / "dtof.f").read_text().splitlines()
     files = [HDL / line for line in lines if line.endswith(".sv") and not line.startswith(("//", "technology/"))]
     stand_ins = sorted(FORMAL.glob("dtof_*.sv"))
-    rules = [FORMAL / f"{name}.sv" for name in ("arbitrary_value", "axi_stream_rules", "axi_lite_rules", "apb_rules")]
+    rules = [FORMAL / f"{name}.sv" for name in RULES]
     return [file for file in files if file.name not in {one.name for one in stand_ins}] + stand_ins + rules
 
 
@@ -232,6 +249,9 @@ def failing_assertion(proof: Proof, folder: Path) -> str:
     # All registers are 0 before the first clock, those that ABC has dropped as well.
     registers = int((folder / "model.aig").read_bytes().split(maxsplit=4)[3])
     (folder / "counterexample.aiw").write_text("\n".join(["1", "b0", "0" * registers, *inputs, "."]) + "\n")
+    if proof.gated_clock:  # the simulator needs flip-flops with a clock
+        model = (folder / "model.il").read_text()
+        (folder / "model.il").write_text(re.sub(r"cell \$_FF_ (\S+)\n", r"cell $_DFF_P_ \1\n    connect \\C \\clk_i\n", model))
     script = SIMULATE_SCRIPT.format(clock="-multiclock" if proof.free_clock else "-clock clk_i")
     log, _ = run_tool(["yosys", "-p", script], folder, "simulate.log", SIMULATE_SECONDS)
     failed = FAILED.findall(log)
@@ -239,6 +259,12 @@ def failing_assertion(proof: Proof, folder: Path) -> str:
         raise FormalError(f"the counterexample in {folder.relative_to(ROOT)} does not fail when it is replayed")
     # Registers of clk2fflogic are unknown in the first step of a replay, in which an assertion may fail that is right.
     return failed[-1 if proof.free_clock else 0].split(".", 1)[1]
+
+
+def registers_of(proof: Proof) -> dict[str, str]:
+    if proof.gated_clock:
+        return GATED_CLOCK
+    return FREE_CLOCK if proof.free_clock else ONE_CLOCK
 
 
 def solve(job: Job) -> Outcome:
@@ -250,7 +276,7 @@ def solve(job: Job) -> Outcome:
         files = with_bug(files, job.bug, folder)
     script = YOSYS_SCRIPT.format(
         defines="-DFIND_GOAL" if job.kind == "goal" else "", hdl=HDL, formal=FORMAL, sources=" ".join(map(str, files)),
-        harness=proof.harness, **(FREE_CLOCK if proof.free_clock else ONE_CLOCK),
+        harness=proof.harness, **registers_of(proof),
         parameters="".join(f"chparam -set {name} {value} {proof.harness}; " for name, value in job.parameters.items()),
     )
     unbounded = job.kind == "prove" and proof.frames is None
@@ -259,7 +285,7 @@ def solve(job: Job) -> Outcome:
     swept = job.kind == "prove"
     engine = f"{'scorr; write_aiger swept.aig; ' if swept else ''}{'pdr' if unbounded else f'bmc3 -F {frames}'}"
 
-    headers = (*HDL.glob("common/*.svh"), *FORMAL.glob("*.svh"))
+    headers = (*HDL.glob("common/*.svh"), *FORMAL.glob("*.svh"), *((GATED_FLIP_FLOPS,) if proof.gated_clock else ()))
     texts = [script, engine, *(" ".join(without_comments(file.read_text()).split()) for file in (*files, *headers))]
     key = hashlib.sha256("\0".join(texts).encode()).hexdigest()
     kept = folder / "outcome.json"
