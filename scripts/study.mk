@@ -13,6 +13,10 @@ POOL_NUMBERS := COARSE_SHARE=12,14,16,18 TRACK_SHARE=20,25,30,35,40 OWN_WEIGHT L
   OFFSET_GEAR_1 LABEL_COST LABEL_COST_SLOPE CHOOSE_PENALTY CHOOSE_PENALTY_SLOPE LEFT_COST LEFT_COST_SLOPE RIGHT_LIMIT \
   RIGHT_LIMIT_SLOPE LATERAL_REACH RIVAL_REACH DECIDE_PENALTY DECIDE_PENALTY_SLOPE SMOOTH_DARK=768,1280 \
   SMOOTH_BRIGHT=1280,2048 SMOOTH_BRIGHT_FROM WEIGHT_0 WEIGHT_1 WEIGHT_5 WEIGHT_6 WEIGHT_7
+# Small sensors and short frames: a full sweep of 20 sensors takes some minutes. Without these options it takes more than an hour.
+JUDGEMENT := $(if $(SMALL),--sensors 1 --most-columns 20 --most-rows 16 --most-acquisitions 300 --sweep-pixels 500 --final-pixels 500 \
+    --final-seeds 2 --finalists 2,--most-columns 48 --most-rows 40 --most-acquisitions 450 --sweep-pixels 2000 --final-pixels 3000 --final-seeds 5 \
+    --finalists 5)
 RIVAL_COLUMNS ?= $(if $(SMALL),2,16)
 RIVAL_OPTIONS := --pooled --claims --seeds $(if $(SMALL),2 --klux 50,4) --columns $(RIVAL_COLUMNS)
 PHOTON_TIMES := $(SHARED_DATA)/shin2016_two_layer_photon_times.mat \
@@ -115,8 +119,7 @@ endif
 
 design-judgement: study-program
 	@scripts/reports.py begin design_judgement
-	@$(DTOF_STUDY) design-judgement $(if $(SMALL),--sensors 1 --most-columns 20 --most-rows 16 --most-acquisitions 300 --sweep-pixels 500 \
-	  --final-pixels 500 --final-seeds 2 --finalists 2) --seed $(SEED) --out $(OUT)/design_judgement
+	@$(DTOF_STUDY) design-judgement $(JUDGEMENT) --seed $(SEED) --out $(OUT)/design_judgement
 	@scripts/publish.py design_judgement
 
 frames: study-program
