@@ -2,7 +2,8 @@
 // Proves of dtof_apb_registers: a write changes the register at its offset and no other, in the bytes that pstrb_i selects; a read
 // returns what was written last, a constant or a status; a refused access is answered with an error and changes nothing; sticky bits
 // are set by their events, and only a 1 written to them clears them; the settings of a frame change together, with a commit. The
-// harness watches one arbitrary register. The master may do anything, and a reset may come at any time.
+// harness watches one arbitrary register. The master keeps a request until it ends, and may do anything else, for instance access without a setup;
+// a reset may come at any time.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -253,13 +254,14 @@ module apb_registers_properties #(
     endcase
   endfunction
 
-  // Accesses. A transfer takes effect in the first clock of its access, and is answered in the next clock.
-  logic access, answered_q, exists, legal, writes, starts, commits;
+  // Transfers. A read samples in its setup; if the setup follows a write's access directly, it samples in a wait state behind the setup.
+  logic samples, sampled_q, waits_q, wrote_q, legal_q, access, exists, legal, writes, starts, commits;
   logic [11:0] offset;
   logic [31:0] bytes, ones;
 
   assign offset = {paddr_i[11:2], 2'b00};
-  assign access = rst_n && psel_i && penable_i && !answered_q;
+  assign samples = rst_n && psel_i && (!penable_i || waits_q);
+  assign access = rst_n && psel_i && penable_i && sampled_q && !waits_q;
   assign bytes = {{8{pstrb_i[3]}}, {8{pstrb_i[2]}}, {8{pstrb_i[1]}}, {8{pstrb_i[0]}}};
   assign ones = pwdata_i & bytes;
   assign exists = (offset <= 12'h030) || (offset >= 12'h040 && offset <= 12'h14c);
@@ -267,7 +269,7 @@ module apb_registers_properties #(
   logic [31:0] may;  // bits that may be written as 1
   assign may = (is_template(offset) && busy_i) ? '0 : kept_bits(offset) | command_bits(offset);
   assign legal = exists && (!pwrite_i || is_sticky(offset) || (may != '0 && (ones & ~may) == '0));
-  assign writes = access && pwrite_i && legal;
+  assign writes = access && pwrite_i && legal_q;
   assign starts = writes && offset == dtof_registers_pkg::CONTROL && (ones[0] || ones[4]);
   assign commits = starts || (writes && offset == dtof_registers_pkg::COMMIT && ones[0]);
 
@@ -299,12 +301,13 @@ module apb_registers_properties #(
   logic [9:0] error_events, error_q;
   logic [3:0] warning_events, warning_q;
   logic [1:0] causes, cause_q, cause_enable_q;
-  logic start_q, self_test_q, flush_q, abort_q, reseed_q, failed_q;  // failed_q: an error in the last clock
+  logic start_q, self_test_q, flush_q, abort_q, reseed_q;
+  logic failed_q, ended_q;  // an error, a frame's end in the last clock
 
   assign error_events = {self_test_failed_i, parity_error_i, flush_ignored_i, stalled_i, timeout_i, short_i || long_i, overrun_i, illegal_schedule_i,
                          start_ignored_i, underrun_i};
   assign warning_events = {long_i, short_i, aborted_i, counter_full_i};
-  assign causes = {failed_q, frame_i};
+  assign causes = {failed_q, ended_q};
 
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
@@ -312,13 +315,14 @@ module apb_registers_properties #(
       warning_q <= '0;
       cause_q <= '0;
       cause_enable_q <= '0;
-      {start_q, self_test_q, flush_q, abort_q, reseed_q, failed_q} <= '0;
+      {start_q, self_test_q, flush_q, abort_q, reseed_q, failed_q, ended_q} <= '0;
     end else begin
       error_q <= error_events | ((writes && offset == dtof_registers_pkg::ERROR) ? error_q & ~ones[9:0] : error_q);
       warning_q <= warning_events | ((writes && offset == dtof_registers_pkg::WARNING) ? warning_q & ~ones[3:0] : warning_q);
       cause_q <= causes | ((writes && offset == dtof_registers_pkg::IRQ_STATUS) ? cause_q & ~ones[1:0] : cause_q);
       if (writes && offset == dtof_registers_pkg::IRQ_ENABLE && pstrb_i[0]) cause_enable_q <= pwdata_i[1:0];
       failed_q <= error_events != '0;
+      ended_q <= frame_i;
       start_q <= starts;
       self_test_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[4];
       flush_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[2];
@@ -365,15 +369,26 @@ module apb_registers_properties #(
     endcase
   end
 
-  // The answer to the access of the last clock.
-  logic refused_q, reads_q;  // reads_q: the read's result is known
+  // What the setup decides, and the master's request, which stays until its end.
+  logic reads_q, requests_q;  // reads_q: the read's result is known; requests_q: a request of the last clock has not ended
   logic [31:0] read_q;
+  logic [48:0] request, request_q;
+  assign request = {pwrite_i, paddr_i, pwdata_i, pstrb_i};
   always_ff @(posedge clk_i) begin
-    answered_q <= access;
-    refused_q <= !legal;
-    reads_q <= !pwrite_i && (is_fixed || (exists && offset == watched));
-    read_q <= is_fixed ? fixed : stored_q;
+    sampled_q <= samples;
+    waits_q <= rst_n && psel_i && !penable_i && !pwrite_i && wrote_q;
+    wrote_q <= writes;
+    requests_q <= samples;
+    request_q <= request;
+    if (samples) begin
+      legal_q <= legal;
+      reads_q <= !pwrite_i && (is_fixed || (exists && offset == watched));
+      read_q <= is_fixed ? fixed : stored_q;
+    end
   end
+
+  `ASSUME(m_request_stays, !(rst_n && requests_q) || (psel_i && request == request_q))
+  `ASSUME(m_wait_state, !(rst_n && waits_q) || penable_i)
 
   // The watched register at the outputs: the settings of frames behind a commit, the others at once.
   logic has_output, at_once;
@@ -426,9 +441,9 @@ module apb_registers_properties #(
       .pslverr_i(pslverr)
   );
 
-  `PROVE(a_answer, !rst_n || pready == answered_q)
-  `PROVE(a_error, !(rst_n && answered_q && psel_i && penable_i) || pslverr == refused_q)
-  `PROVE(a_read, !(rst_n && answered_q && reads_q) || prdata == read_q)
+  `PROVE(a_ready, !rst_n || pready == !waits_q)
+  `PROVE(a_error, !rst_n || pslverr == (psel_i && penable_i && !waits_q && !(sampled_q && legal_q)))
+  `PROVE(a_read, !(access && !pwrite_i && reads_q) || prdata == read_q)
   `PROVE(a_at_once, !(rst_n && has_output && at_once) || shown == stored_q)
   `PROVE(a_committed, !(rst_n && has_output && !at_once && committed_once_q) || shown == committed_q)
   `PROVE(a_commands, !rst_n || {start, self_test, flush, abort, reseed} == {start_q, self_test_q, flush_q, abort_q, reseed_q})

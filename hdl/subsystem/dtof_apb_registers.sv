@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The registers of dtof_subsystem behind an APB4 port (hdl/subsystem/registers.toml; table in docs/user/integration.md).
 //
-// A transfer takes three clocks, with one wait state. pslverr_o reports an access to an offset without a register, a write to a
+// A transfer takes two clocks, and a read that directly follows a write three. pslverr_o reports an access to an offset without a register, a write to a
 // register without a writable bit in this configuration, and a write of 1 to a bit of a setting or command that this configuration
 // does not have. Such an access writes nothing. pstrb_i selects bytes; there is no pprot.
 // Settings become valid together, with COMMIT, START or a self-test. CONTROL, IRQ_ENABLE, WATCHDOG, SHOT_SEED, SELF_TEST_SEED and
 // SELF_TEST_EXPECTED are valid at once. If software clears a bit in the clock of a new event, the bit stays set.
-// Schedule: clock 0 is APB's setup. A write takes effect at the end of clock 1, and a read samples in clock 1. In clock 2 pready_o is high;
-// prdata_o comes from flip-flops. irq_o shows an error one clock after ERROR has it.
+// Schedule: clock 0 is APB's setup, in which a read samples; clock 1 is its access, with prdata_o from flip-flops. A write takes effect at the end
+// of clock 1. A read whose setup directly follows a write's access has a wait state and samples in clock 1, so that it sees what the write has
+// done. irq_o rises one clock after the bit that ERROR or the frame's end sets. An access without a setup is refused.
 // Latency: a command is a pulse in the clock after its write; a committed setting is at its output in the clock after the commit.
 // Cost: two flip-flops per bit of a setting, SRAM_NUM such bits for the columns, and the read multiplexer.
 `include "dtof_macros.svh"
@@ -134,19 +135,20 @@ module dtof_apb_registers #(
   localparam int CAUSES = 2;  // causes of an interrupt
   localparam int WEAK_WIDTH = dtof_pkg::min_of(CONFIDENCE_WIDTH + 1, 16);
 
-  // A write takes effect in the transfer's second clock. Its answer is in the third.
+  // What a transfer may do is decided in its setup, in which all its signals are valid.
 
-  logic access, answer_q, error_answer_q, known, writable, write, starts, commit;
+  logic setup, access, armed_q, waits_q, wrote_q, writable_q, refused_q, known, writable, write, starts, commit;
   logic [11:0] offset;
   logic [31:0] mask;     // bits that pstrb_i selects
   logic [31:0] written;  // selected bits that are written as 1
   logic [31:0] there;    // bits that a write of 1 may set: fields of this configuration, or all bits where a 1 has no effect
 
   assign offset = {paddr_i[11:2], 2'b00};
-  assign access = psel_i && penable_i && !answer_q;
+  assign setup = psel_i && (!penable_i || waits_q);  // also the wait state, after which a read samples again
+  assign access = psel_i && penable_i && armed_q && !waits_q;
   assign known = dtof_registers_pkg::is_register(offset);
   assign writable = dtof_registers_pkg::is_writable(offset) && (there != '0) && ((written & ~there) == '0);
-  assign write = access && pwrite_i && writable;
+  assign write = access && pwrite_i && writable_q;
   assign mask = {{8{pstrb_i[3]}}, {8{pstrb_i[2]}}, {8{pstrb_i[1]}}, {8{pstrb_i[0]}}};
 
   assign written = pwdata_i & mask;
@@ -161,28 +163,33 @@ module dtof_apb_registers #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      answer_q <= 1'b0;
-      error_answer_q <= 1'b0;
+      armed_q <= 1'b0;
+      waits_q <= 1'b0;
+      wrote_q <= 1'b0;
     end else begin
-      answer_q <= access;
-      error_answer_q <= access && (pwrite_i ? !writable : !known);
+      armed_q <= setup;
+      waits_q <= psel_i && !penable_i && !pwrite_i && wrote_q;
+      wrote_q <= write;
     end
   end
 
   always_ff @(posedge clk_i) begin
-    if (access) begin
+    if (setup) begin
       read_data_q <= read_data;
+      writable_q <= writable;
+      refused_q <= pwrite_i ? !writable : !known;
     end
   end
 
-  assign pready_o = answer_q;
-  assign pslverr_o = psel_i && penable_i && error_answer_q;
+  assign pready_o = !waits_q;
+  assign pslverr_o = psel_i && penable_i && !waits_q && (refused_q || !armed_q);
   assign prdata_o = read_data_q;
 
   // Commands, settings, and flags that events set.
 
   logic start_q, flush_q, abort_q, continuous_q;
   logic [ERRORS-1:0] error_q, error_event, error_event_q, error_cleared;
+  logic frame_q;  // a frame has ended in the last clock
   logic [WARNINGS-1:0] warning_q, warning_event, warning_cleared;
   logic [23:0] watchdog_q;
   logic [CAUSES-1:0] cause_q, cause_event, cause_cleared, cause_enable_q;
@@ -215,7 +222,7 @@ module dtof_apb_registers #(
     warning_event[dtof_registers_pkg::WARNING_SHORT_LSB] = short_i;
     warning_event[dtof_registers_pkg::WARNING_LONG_LSB] = long_i;
     cause_event = '0;
-    cause_event[dtof_registers_pkg::IRQ_STATUS_FRAME_LSB] = frame_i;
+    cause_event[dtof_registers_pkg::IRQ_STATUS_FRAME_LSB] = frame_q;
     cause_event[dtof_registers_pkg::IRQ_STATUS_ERROR_LSB] = |error_event_q;
   end
 
@@ -232,6 +239,7 @@ module dtof_apb_registers #(
       continuous_q <= 1'b0;
       error_q <= '0;
       error_event_q <= '0;
+      frame_q <= 1'b0;
       cause_q <= '0;
       warning_q <= '0;
       watchdog_q <= 24'(dtof_registers_pkg::WATCHDOG_RESET);
@@ -252,6 +260,7 @@ module dtof_apb_registers #(
       shot_reseed_q <= write && (offset == dtof_registers_pkg::SHOT_SEED) && (pstrb_i[1:0] != '0);
       error_q <= (error_q & ~error_cleared) | error_event;
       error_event_q <= error_event;
+      frame_q <= frame_i;
       cause_q <= (cause_q & ~cause_cleared) | cause_event;
       warning_q <= (warning_q & ~warning_cleared) | warning_event;
       if (illegal_schedule_i) begin

@@ -8,7 +8,7 @@
 //
 // Schedule: clock 0 the last part of a request, clock 1 that part is registered, clocks 2 and 3 setup and access on the APB,
 //   clock 4 the response. Latency: four clocks from the last part of a request to its response, plus wait states of the APB.
-// Throughput: a read every two clocks plus wait states: every three in front of dtof_apb_registers.
+// Throughput: a read every two clocks plus wait states.
 // Cost: address and data of a request and of a transfer, two responses of each kind, ten state bits.
 `include "dtof_macros.svh"
 

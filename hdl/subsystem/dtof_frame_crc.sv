@@ -10,7 +10,7 @@
 // The checksum is linear over GF(2): next(crc, word) = next(crc, 0) ^ next(0, word). Each bit of both terms is the parity of some bits, which
 // the rows of a matrix select, so that a path has a tree of XORs instead of one XOR for each bit of the word.
 // Schedule: clock 0 the word is taken, clock 1 the word is in a register, clock 2 next(0, word) is in a register, from clock 3 on crc_o is the
-// new checksum. irq_o can rise in clock 1; a read transfer that then begins in clock 2 samples crc_o in clock 3.
+// new checksum. irq_o rises in clock 2 at the earliest; a read transfer that then begins in clock 3 samples the new crc_o.
 // Latency: 3 clocks. Cost: 166 flip-flops, for 64 bits 947 two-input XORs, as Yosys shares them.
 
 // verilator lint_off TIMESCALEMOD
