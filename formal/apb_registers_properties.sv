@@ -41,6 +41,7 @@ module apb_registers_properties #(
     input logic [31:0] frame_count_i,
     input logic [31:0] frame_cycles_i,
     input logic [31:0] frame_crc_i,
+    input logic        frame_crc_pending_i,
     input logic [31:0] lost_lines_i,
     input logic [31:0] lost_acquisitions_i,
     input logic [15:0] shot_state_i,
@@ -168,6 +169,7 @@ module apb_registers_properties #(
       .frame_count_i      (frame_count_i),
       .frame_cycles_i     (frame_cycles_i),
       .frame_crc_i        (frame_crc_i),
+      .frame_crc_pending_i(frame_crc_pending_i),
       .lost_lines_i       (lost_lines_i),
       .lost_acquisitions_i(lost_acquisitions_i),
       .shot_state_i       (shot_state_i),
@@ -254,7 +256,8 @@ module apb_registers_properties #(
     endcase
   endfunction
 
-  // Transfers. A read samples in its setup; if the setup follows a write's access directly, it samples in a wait state behind the setup.
+  // Transfers. A read samples in its setup; if the setup follows a write's access directly, or while a checksum is pending, it samples in a wait
+  // state behind the setup.
   logic samples, sampled_q, waits_q, wrote_q, legal_q, access, exists, legal, writes, starts, commits;
   logic [11:0] offset;
   logic [31:0] bytes, ones;
@@ -302,12 +305,12 @@ module apb_registers_properties #(
   logic [3:0] warning_events, warning_q;
   logic [1:0] causes, cause_q, cause_enable_q;
   logic start_q, self_test_q, flush_q, abort_q, reseed_q;
-  logic failed_q, ended_q;  // an error, a frame's end in the last clock
+  logic failed_q;  // an error in the last clock
 
   assign error_events = {self_test_failed_i, parity_error_i, flush_ignored_i, stalled_i, timeout_i, short_i || long_i, overrun_i, illegal_schedule_i,
                          start_ignored_i, underrun_i};
   assign warning_events = {long_i, short_i, aborted_i, counter_full_i};
-  assign causes = {failed_q, ended_q};
+  assign causes = {failed_q, frame_i};
 
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
@@ -315,14 +318,13 @@ module apb_registers_properties #(
       warning_q <= '0;
       cause_q <= '0;
       cause_enable_q <= '0;
-      {start_q, self_test_q, flush_q, abort_q, reseed_q, failed_q, ended_q} <= '0;
+      {start_q, self_test_q, flush_q, abort_q, reseed_q, failed_q} <= '0;
     end else begin
       error_q <= error_events | ((writes && offset == dtof_registers_pkg::ERROR) ? error_q & ~ones[9:0] : error_q);
       warning_q <= warning_events | ((writes && offset == dtof_registers_pkg::WARNING) ? warning_q & ~ones[3:0] : warning_q);
       cause_q <= causes | ((writes && offset == dtof_registers_pkg::IRQ_STATUS) ? cause_q & ~ones[1:0] : cause_q);
       if (writes && offset == dtof_registers_pkg::IRQ_ENABLE && pstrb_i[0]) cause_enable_q <= pwdata_i[1:0];
       failed_q <= error_events != '0;
-      ended_q <= frame_i;
       start_q <= starts;
       self_test_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[4];
       flush_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[2];
@@ -376,7 +378,7 @@ module apb_registers_properties #(
   assign request = {pwrite_i, paddr_i, pwdata_i, pstrb_i};
   always_ff @(posedge clk_i) begin
     sampled_q <= samples;
-    waits_q <= rst_n && psel_i && !penable_i && !pwrite_i && wrote_q;
+    waits_q <= samples && !pwrite_i && (frame_crc_pending_i || (wrote_q && !waits_q));
     wrote_q <= writes;
     requests_q <= samples;
     request_q <= request;
@@ -389,6 +391,11 @@ module apb_registers_properties #(
 
   `ASSUME(m_request_stays, !(rst_n && requests_q) || (psel_i && request == request_q))
   `ASSUME(m_wait_state, !(rst_n && waits_q) || penable_i)
+  logic [1:0] pending_q;  // clocks in which the checksum has been pending: at most two
+  always_ff @(posedge clk_i) begin
+    pending_q <= frame_crc_pending_i ? pending_q + 2'd1 : 2'd0;
+  end
+  `ASSUME(m_pending, !frame_crc_pending_i || pending_q < 2'd2)
 
   // The watched register at the outputs: the settings of frames behind a commit, the others at once.
   logic has_output, at_once;
@@ -426,7 +433,7 @@ module apb_registers_properties #(
   end
 
   apb_rules #(
-      .MOST_WAITS(1)
+      .MOST_WAITS(3)
   ) u_apb_rules (
       .clk_i    (clk_i),
       .rst_ni   (rst_n),

@@ -26,6 +26,7 @@ module frame_crc_properties #(
   end
 
   logic [31:0] crc;
+  logic pending;
 
   dtof_frame_crc #(
       .WIDTH(WIDTH)
@@ -37,6 +38,7 @@ module frame_crc_properties #(
       .first_i  (first_i),
       .last_i   (last_i),
       .aborted_i(aborted_i),
+      .pending_o(pending),
       .crc_o    (crc)
   );
 
@@ -89,6 +91,7 @@ module frame_crc_properties #(
   end
 
   `PROVE(a_crc, !rst_n || crc == expected_q)
+  `PROVE(a_pending, !rst_n || pending == ((taken_q && ends_q) || (late_taken_q && late_ends_q)))
   `GOAL(rst_n && frames_q == 2 && crc != '0 && taken_i && last_i && aborted_i && !first_i)
 
 endmodule

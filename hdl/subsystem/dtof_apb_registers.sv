@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The registers of dtof_subsystem behind an APB4 port (hdl/subsystem/registers.toml; table in docs/user/integration.md).
 //
-// A transfer takes two clocks, and a read that directly follows a write three. pslverr_o reports an access to an offset without a register, a write to a
+// A transfer takes two clocks; a read may have up to three wait states. pslverr_o reports an access to an offset without a register, a write to a
 // register without a writable bit in this configuration, and a write of 1 to a bit of a setting or command that this configuration
 // does not have. Such an access writes nothing. pstrb_i selects bytes; there is no pprot.
 // Settings become valid together, with COMMIT, START or a self-test. CONTROL, IRQ_ENABLE, WATCHDOG, SHOT_SEED, SELF_TEST_SEED and
 // SELF_TEST_EXPECTED are valid at once. If software clears a bit in the clock of a new event, the bit stays set.
 // Schedule: clock 0 is APB's setup, in which a read samples; clock 1 is its access, with prdata_o from flip-flops. A write takes effect at the end
-// of clock 1. A read whose setup directly follows a write's access has a wait state and samples in clock 1, so that it sees what the write has
-// done. irq_o rises one clock after the bit that ERROR or the frame's end sets. An access without a setup is refused.
+// of clock 1. A read has a wait state, and samples in its last one, if its setup directly follows a write's access, so that it sees what the write
+// has done, and while the checksum of a frame's end is pending. irq_o shows an error one clock after ERROR. An access without a setup is refused.
 // Latency: a command is a pulse in the clock after its write; a committed setting is at its output in the clock after the commit.
 // Cost: two flip-flops per bit of a setting, SRAM_NUM such bits for the columns, and the read multiplexer.
 `include "dtof_macros.svh"
@@ -106,6 +106,7 @@ module dtof_apb_registers #(
     input  logic [         31:0] frame_count_i,
     input  logic [         31:0] frame_cycles_i,
     input  logic [         31:0] frame_crc_i,
+    input  logic                 frame_crc_pending_i,  // frame_crc_i follows at once: reads wait
     input  logic [         31:0] lost_lines_i,
     input  logic [         31:0] lost_acquisitions_i,
     input  logic [         15:0] shot_state_i,
@@ -144,7 +145,7 @@ module dtof_apb_registers #(
   logic [31:0] there;    // bits that a write of 1 may set: fields of this configuration, or all bits where a 1 has no effect
 
   assign offset = {paddr_i[11:2], 2'b00};
-  assign setup = psel_i && (!penable_i || waits_q);  // also the wait state, after which a read samples again
+  assign setup = psel_i && (!penable_i || waits_q);  // also in a wait state, in which a read samples again
   assign access = psel_i && penable_i && armed_q && !waits_q;
   assign known = dtof_registers_pkg::is_register(offset);
   assign writable = dtof_registers_pkg::is_writable(offset) && (there != '0) && ((written & ~there) == '0);
@@ -168,7 +169,7 @@ module dtof_apb_registers #(
       wrote_q <= 1'b0;
     end else begin
       armed_q <= setup;
-      waits_q <= psel_i && !penable_i && !pwrite_i && wrote_q;
+      waits_q <= setup && !pwrite_i && (frame_crc_pending_i || (!penable_i && wrote_q));
       wrote_q <= write;
     end
   end
@@ -189,7 +190,6 @@ module dtof_apb_registers #(
 
   logic start_q, flush_q, abort_q, continuous_q;
   logic [ERRORS-1:0] error_q, error_event, error_event_q, error_cleared;
-  logic frame_q;  // a frame has ended in the last clock
   logic [WARNINGS-1:0] warning_q, warning_event, warning_cleared;
   logic [23:0] watchdog_q;
   logic [CAUSES-1:0] cause_q, cause_event, cause_cleared, cause_enable_q;
@@ -222,7 +222,7 @@ module dtof_apb_registers #(
     warning_event[dtof_registers_pkg::WARNING_SHORT_LSB] = short_i;
     warning_event[dtof_registers_pkg::WARNING_LONG_LSB] = long_i;
     cause_event = '0;
-    cause_event[dtof_registers_pkg::IRQ_STATUS_FRAME_LSB] = frame_q;
+    cause_event[dtof_registers_pkg::IRQ_STATUS_FRAME_LSB] = frame_i;
     cause_event[dtof_registers_pkg::IRQ_STATUS_ERROR_LSB] = |error_event_q;
   end
 
@@ -239,7 +239,6 @@ module dtof_apb_registers #(
       continuous_q <= 1'b0;
       error_q <= '0;
       error_event_q <= '0;
-      frame_q <= 1'b0;
       cause_q <= '0;
       warning_q <= '0;
       watchdog_q <= 24'(dtof_registers_pkg::WATCHDOG_RESET);
@@ -260,7 +259,6 @@ module dtof_apb_registers #(
       shot_reseed_q <= write && (offset == dtof_registers_pkg::SHOT_SEED) && (pstrb_i[1:0] != '0);
       error_q <= (error_q & ~error_cleared) | error_event;
       error_event_q <= error_event;
-      frame_q <= frame_i;
       cause_q <= (cause_q & ~cause_cleared) | cause_event;
       warning_q <= (warning_q & ~warning_cleared) | warning_event;
       if (illegal_schedule_i) begin

@@ -10,7 +10,8 @@
 // The checksum is linear over GF(2): next(crc, word) = next(crc, 0) ^ next(0, word). Each bit of both terms is the parity of some bits, which
 // the rows of a matrix select, so that a path has a tree of XORs instead of one XOR for each bit of the word.
 // Schedule: clock 0 the word is taken, clock 1 the word is in a register, clock 2 next(0, word) is in a register, from clock 3 on crc_o is the
-// new checksum. irq_o rises in clock 2 at the earliest; a read transfer that then begins in clock 3 samples the new crc_o.
+// new checksum. behind a frame's last word pending_o is high in clocks 1
+// and 2, in which dtof_apb_registers makes reads wait.
 // Latency: 3 clocks. Cost: 166 flip-flops, for 64 bits 947 two-input XORs, as Yosys shares them.
 
 // verilator lint_off TIMESCALEMOD
@@ -26,6 +27,7 @@ module dtof_frame_crc #(
     input  logic             first_i,    // a frame's first word
     input  logic             last_i,     // a frame's last word
     input  logic             aborted_i,  // the last word of a frame that was cut off
+    output logic             pending_o,  // crc_o follows at once: the last word of a frame has been taken
     output logic [     31:0] crc_o       // the last frame that was not aborted
 );
 
@@ -115,6 +117,7 @@ module dtof_frame_crc #(
     end
   end
 
+  assign pending_o = (taken_q && ends_q) || (part_q && part_ends_q);
   assign crc_o = frame_crc_q;
 
 endmodule

@@ -210,6 +210,7 @@ module dtof_subsystem #(
   logic [2:0] state;
   logic [LEVEL_WIDTH-1:0] level;
   logic [31:0] frame_count, frame_cycles, frame_crc;
+  logic frame_crc_pending;
   // self_test comes with start; test_frame: the frame that began last is a self-test; words_left: the sink has not taken all words
   logic self_test, test_chosen, test_refused, test_frame, test_busy, test_passed, test_failed, words_left;
   logic [31:0] test_seed, test_expected;
@@ -299,6 +300,7 @@ module dtof_subsystem #(
       .frame_count_i     (frame_count),
       .frame_cycles_i    (frame_cycles),
       .frame_crc_i       (frame_crc),
+      .frame_crc_pending_i(frame_crc_pending),
       .lost_lines_i      (lost_lines),
       .lost_acquisitions_i(lost_acquisitions),
       .shot_state_i      (shot_state),
@@ -974,6 +976,7 @@ module dtof_subsystem #(
       .first_i  (m_axis_tuser_o),
       .last_i   (m_axis_tlast_o),
       .aborted_i(aborted_word),
+      .pending_o(frame_crc_pending),
       .crc_o    (frame_crc)
   );
 

@@ -40,6 +40,7 @@ class Parity : public Subsystem {
   }
 
   void expect_errors(std::uint32_t number, std::uint32_t since_reset) {
+    bench_.clocks(2);  // from a damaged word to the register
     EXPECT_EQ(bench_.get(DTOF_ERROR), number > 0 ? DTOF_ERROR_PARITY_MASK : 0U);
     EXPECT_EQ(bench_.get(DTOF_IRQ_STATUS) & DTOF_IRQ_STATUS_ERROR_MASK,
               number > 0 ? DTOF_IRQ_STATUS_ERROR_MASK : 0U);
