@@ -91,11 +91,6 @@ def middle(name: str, settings: Settings, seed: int) -> _core.Scene:
     return _core.Scene.from_depth(whole.depth_m[rows, columns], whole.reflectivity[rows, columns])
 
 
-def without_laser(scene: _core.Scene) -> _core.Scene:
-    """Returns the scene with its background light alone: nothing at a finite distance returns laser light."""
-    return _core.Scene.from_depth(np.full_like(scene.depth_m, np.inf), scene.reflectivity)
-
-
 def has_truth(scene: _core.Scene) -> npt.NDArray[np.bool_]:
     """Which pixels (rows, columns) have a true distance: a scene says 0 where nothing is."""
     return np.isfinite(scene.depth_m) & (scene.depth_m > 0)
@@ -194,13 +189,13 @@ def measure(entries: Sequence[Entry], settings: Settings, progress: Callable[[in
                 raise ValueError(f"no pixel of the scenes {', '.join(settings.scenes)} has a true distance in the part that is read")
             most = max(entry.frames for entry in entries)
 
-            def taken(scenes: Sequence[_core.Scene]) -> list[list[_core.Photons]]:
+            def taken(laser: bool) -> list[list[_core.Photons]]:
                 """The frames of each scene, the oldest first."""
-                return [[_core.photons(scene, sensor, klux, seed=settings.seed + number, frame=most * place + back) for back in reversed(range(most))]
-                        for place, scene in enumerate(scenes)]
+                return [[_core.photons(scene, sensor, klux, seed=settings.seed + number, frame=most * place + back, laser=laser)
+                         for back in reversed(range(most))] for place, scene in enumerate(scenes)]
 
-            photons = taken(scenes)
-            laser_off = taken([without_laser(scene) for scene in scenes]) if any(entry.laser_off_frames for entry in entries) else photons
+            photons = taken(laser=True)
+            laser_off = taken(laser=False) if any(entry.laser_off_frames for entry in entries) else photons
             for entry, table, own in zip(entries, tables, shares):
                 wrong = dict.fromkeys(LIMITS, 0)
                 first = most - entry.frames

@@ -253,17 +253,20 @@ std::shared_ptr<StreamSource> histogram_photons(const InputArray<double>& counts
 }
 
 std::shared_ptr<StreamSource> photons(const SceneMap& scene, const SensorModel& sensor, double klux,
-                                      std::uint64_t seed, std::uint32_t frame, const std::string& fidelity) {
-  const PhotonSource exact = scene_photons(scene, sensor, klux, seed, frame);
+                                      std::uint64_t seed, std::uint32_t frame, const std::string& fidelity,
+                                      bool laser) {
+  SensorModel lit = sensor;
+  lit.signal_events_1m = laser ? sensor.signal_events_1m : 0.0;
+  const PhotonSource exact = scene_photons(scene, lit, klux, seed, frame);
   return make_source(parse_fidelity(fidelity, exact, {}), exact);
 }
 
 void bind_sources(py::module_& module) {
   module.def("photons", &photons, "scene"_a, "sensor"_a, "klux"_a = 14.0, py::kw_only(), "seed"_a = 1,
-             "frame"_a = 0, "fidelity"_a = "exact",
+             "frame"_a = 0, "fidelity"_a = "exact", "laser"_a = true,
              "TDC stream of a scene: exact (event by event), fast (times from tables) or analytic "
              "(expected\ndetections, no noise). Columns are drawn when they are read, with the same photons "
-             "each time.");
+             "each time. laser=False: background light alone.");
   module.def("event_list", &event_list, "column"_a, "row"_a, "acquisition"_a, "timestamp"_a, py::kw_only(),
              "columns"_a, "rows"_a, "acquisitions"_a, "np"_a = 10, "slots"_a = 2,
              "TDC stream from your own events: four arrays of equally many whole numbers, in any order. "

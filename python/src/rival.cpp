@@ -280,7 +280,7 @@ void bind_rivals(py::module_& module) {
           "frames", [](const NamedRival& r) { return r.rival->frames(); }, "Number of frames per result.")
       .def_property_readonly(
           "laser_off_frames", [](const NamedRival& r) { return r.rival->laser_off_frames(); },
-          "How many of the first frames are taken without laser light (a scene with infinite distances).")
+          "How many of the first frames are taken without laser light (photons(..., laser=False)).")
       .def("read_out", &read_rival, "photons"_a, py::kw_only(), "threads"_a = 0, "progress"_a = py::none(),
            "Reads out a frame, or a list of `frames` frames, the oldest first. Returns a dict of arrays "
            "(rows, columns): position\n(float64, bins) and confidence (float64); and words (rows, columns, "

@@ -70,6 +70,13 @@ class ArrayTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "column 3 is outside 0 to 2"):
             photons.column(3)
 
+    def test_photons_without_laser_are_the_background(self) -> None:
+        scene, sensor = dtof.Scene("room", columns=2, rows=3), dtof.Sensor("thesis").replace(acquisitions=200)
+        counts = [sum(len(dtof.photons(scene, sensor, klux, laser=laser).column(column)) for column in range(2))
+                  for klux in (0.0, 50.0) for laser in (False, True)]  # fmt: skip
+        self.assertTrue(counts[0] < counts[1] and counts[2] < counts[3], counts)
+        self.assertLess(counts[0], counts[2])
+
     def test_events_in_any_order_make_the_same_stream(self) -> None:
         photons = dtof.photons(dtof.Scene("room", columns=5, rows=4), dtof.Sensor("thesis"))
         events = photons.events()
