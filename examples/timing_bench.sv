@@ -81,6 +81,8 @@ module timing_bench #(
     #0.1;
   endtask
 
+  logic [31:0] answer;  // of the last transfer
+
   task automatic transfer(input logic is_write, input logic [11:0] offset, input logic [31:0] data);
     psel = 1'b1;
     pwrite = is_write;
@@ -90,6 +92,7 @@ module timing_bench #(
     penable = 1'b1;
     @(negedge clk);
     while (!pready) @(negedge clk);
+    answer = prdata;
     clocks(1);
     psel = 1'b0;
     penable = 1'b0;
@@ -165,11 +168,8 @@ module timing_bench #(
     transfer(1'b1, dtof_registers_pkg::IRQ_ENABLE, 32'd1);
     transfer(1'b1, dtof_registers_pkg::CONTROL, START);
     while (!irq) clocks(1);
-    psel = 1'b1;
-    pwrite = 1'b0;
-    paddr = dtof_registers_pkg::FRAME_CYCLES;
-    clocks(1);
-    $display("cycles %0d lines %0d", prdata, ACQUISITIONS * LINES);
+    transfer(1'b0, dtof_registers_pkg::FRAME_CYCLES, '0);
+    $display("cycles %0d lines %0d", answer, ACQUISITIONS * LINES);
   endtask
 
   initial begin

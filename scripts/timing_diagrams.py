@@ -227,6 +227,8 @@ def frame_clocks() -> str:
         if not found:
             raise FlowError(f"{BENCH} prints no clocks for READOUT = {number}")
         cycles, taken = int(found.group(1)), int(found.group(2))
+        if cycles < taken:
+            raise FlowError(f"{readout.title}: a frame of {cycles} clocks cannot take {taken} lines")
         lines.append(f"| {readout.title} | {cycles:,} | {taken:,} | {cycles - taken:,} |")
     return "\n".join(lines) + "\n"
 

@@ -10,8 +10,7 @@
 // The checksum is linear over GF(2): next(crc, word) = next(crc, 0) ^ next(0, word). Each bit of both terms is the parity of some bits, which
 // the rows of a matrix select, so that a path has a tree of XORs instead of one XOR for each bit of the word.
 // Schedule: clock 0 the word is taken, clock 1 the word is in a register, clock 2 next(0, word) is in a register, from clock 3 on crc_o is the
-// new checksum. behind a frame's last word pending_o is high in clocks 1
-// and 2, in which dtof_apb_registers makes reads wait.
+// new checksum. After a frame's last word pending_o is high in clocks 1 and 2, in which dtof_apb_registers makes reads wait.
 // Latency: 3 clocks. Cost: 166 flip-flops, for 64 bits 947 two-input XORs, as Yosys shares them.
 
 // verilator lint_off TIMESCALEMOD
