@@ -2,6 +2,7 @@
 import subprocess
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import timing_diagrams
 from dtof_synth.errors import FlowError
@@ -66,6 +67,11 @@ class TimingDiagrams(unittest.TestCase):
             timing_diagrams.wavedrom(Diagram(1, "x", "", (Lane("b", "b"),)), wave)
         with self.assertRaisesRegex(FlowError, "no place"):
             timing_diagrams.page("a page", "a table")
+
+    def test_a_frame_is_not_shorter_than_its_lines(self):
+        with mock.patch.object(timing_diagrams, "simulated", return_value="cycles 0 lines 2048\n"):
+            with self.assertRaisesRegex(FlowError, "a frame of 0 clocks cannot take 2048 lines"):
+                timing_diagrams.frame_clocks()
 
     def test_a_drawing_has_every_value_and_name(self):
         text = timing_diagrams.svg(timing_diagrams.wavedrom(DIAGRAM, timing_diagrams.waveform(VCD)))
