@@ -11,7 +11,7 @@ from dtof_synth import program
 from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
-MOST = 11
+MOST = 10
 LARGEST = 200_000  # bytes
 PICTURES = (".png", ".svg", ".jpg", ".gif", ".webp", ".pdf")
 SHOWN = re.compile(r"!\[[^\]]*\]\(([^)]*)\)")
