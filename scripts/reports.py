@@ -9,6 +9,7 @@
 `stale`              lists stale reports, what changed, and how long renewing takes
 `stale-check`        fails if a figure that README.md or the page of results shows is stale, or a report of two minutes
 `renew [--list]`     renews every stale report, in order; what is fresh is passed over
+`confirm [REPORT ...]`  runs commands with SMALL=1: stores what they write for fresh reports, confirms stale ones that write the same bytes
 
 With SMALL=1 `begin` and `record` leave what lies here alone and note in build/small; no page follows.
 """
@@ -21,7 +22,7 @@ from pathlib import Path
 
 import update_readme
 from dtof_synth import program
-from figures import hand_typed, references, staleness, store, tables
+from figures import confirm, hand_typed, references, staleness, store, tables
 from figures.reports import LIST, Report, ReportsError, load
 from figures.small import is_small, written_root
 from figures.source_tree import SourceTree
@@ -73,14 +74,15 @@ def record(options: argparse.Namespace, known: dict[str, Report]) -> int:
 def figures(options: argparse.Namespace, known: dict[str, Report]) -> int:
     tree = SourceTree(ROOT)
     found = staleness.stale(ROOT, known, tree)
+    lines = staleness.first_lines(ROOT, known, tree)
     changed = references.render(ROOT, tree, options.check)
     if not options.check:
         update_readme.write()
-        for name in changed + staleness.mark(ROOT, known, found):
+        for name in changed + staleness.mark(ROOT, known, lines):
             print(f"{name} renewed")
         return 0
     return say_errors([f"{name}: a figure differs from {store.FILE}: run `make figures`" for name in changed]
-                      + hand_typed.check(ROOT, tree) + staleness.unmarked_pages(ROOT, known, found)
+                      + hand_typed.check(ROOT, tree) + staleness.unmarked_pages(ROOT, known, lines)
                       + [f"{name} is stale: run `{one.report.command}`, which takes seconds" for name, one in found.items()
                          if one.report.minutes < MINUTES_TO_BE_FRESH_ALWAYS])
 
@@ -137,7 +139,17 @@ def renew(options: argparse.Namespace, known: dict[str, Report]) -> int:
             return say_errors([f"{name}: `{report.command}` failed; what was renewed before stays, and `make reports` goes on here"])
         if staleness.stale(ROOT, {name: report}, SourceTree(ROOT)):
             return say_errors([f"{name}: `{report.command}` ended, but recorded no inputs: does it call scripts/reports.py?"])
+        if not confirm.why_not(ROOT, report):
+            print(f"{name}: {confirm.confirm(ROOT, report)}", flush=True)
     return 0
+
+
+def confirm_all(options: argparse.Namespace, known: dict[str, Report]) -> int:
+    """Confirms the reports with these names; without names, those whose command runs on little work."""
+    wanted = chosen(options.report, known) or [report for report in known.values() if not confirm.why_not(ROOT, report)]
+    for report in wanted:
+        print(f"{report.name}: {confirm.confirm(ROOT, report)}", flush=True)
+    return figures(argparse.Namespace(check=False), known)
 
 
 def main() -> int:
@@ -154,6 +166,9 @@ def main() -> int:
     command.set_defaults(action=figures)
     for name, action in (("stale", stale), ("stale-check", stale_check)):
         commands.add_parser(name).set_defaults(action=action)
+    command = commands.add_parser("confirm")
+    command.add_argument("report", nargs="*")
+    command.set_defaults(action=confirm_all)
     command = commands.add_parser("renew")
     command.add_argument("--list", action="store_true")
     command.set_defaults(action=renew)

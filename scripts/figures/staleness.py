@@ -2,7 +2,8 @@
 """Which reports were measured on other inputs than those that lie here, and the line that says so on their pages.
 
 reports/digests.json has the inputs that each report was measured on. A command notes them when it begins
-(build/inputs/<report>.json), so that what changes while it runs makes its report stale."""
+(build/inputs/<report>.json), so that what changes while it runs makes its report stale. A small run can confirm a report after a change
+of its inputs (confirm.py); a confirmed report is not stale."""
 
 import json
 import subprocess
@@ -15,16 +16,21 @@ from .source_tree import CommitTree, SourceTree, git_says
 DIGESTS = "reports/digests.json"
 BEGUN = "build/inputs"
 MARK = "> Measured before: "
+CONFIRMED_MARK = "> Confirmed: "
 NAMED_PLACES = 6  # on a page
 
 
 @dataclass(frozen=True)
 class Measured:
-    """The inputs on which a report was measured. `commit`: the commit on which the files were based, if git knows it."""
+    """The inputs on which a report was measured. `commit`: the commit on which the files were based, if git knows it. `small`: digest of the
+    files of a small run with these inputs. `confirmed`: digest of the inputs with which a small run wrote the same files."""
 
     digest: str
     folders: dict[str, str]
     commit: str = ""
+    small: str = ""
+    confirmed: str = ""
+    confirmed_commit: str = ""
 
 
 @dataclass(frozen=True)
@@ -35,13 +41,13 @@ class Stale:
     @property
     def line(self) -> str:
         """First line of the stale report's pages."""
-        if not self.places:
-            what = "nobody noted on what"
-        else:
-            others = len(self.places) - NAMED_PLACES
-            named = ", ".join(self.places[:NAMED_PLACES]) + (f" and {others} more" if others > 0 else "")
-            what = f"changes in {named}"
+        what = f"changes in {_named(self.places)}" if self.places else "nobody noted on what"
         return f"{MARK}{what}. `{self.report.command}` ({minutes(self.report)}) renews this page."
+
+
+def _named(places: tuple[str, ...]) -> str:
+    others = len(places) - NAMED_PLACES
+    return ", ".join(places[:NAMED_PLACES]) + (f" and {others} more" if others > 0 else "")
 
 
 def minutes(report: Report) -> str:
@@ -105,19 +111,40 @@ def record_commit(root: Path, report: Report, commit: str) -> Measured:
 
 def _store(root: Path, report: Report, found: Measured) -> None:
     entries = _read(root / DIGESTS)
+    before = entries.get(report.name, {})
     entries[report.name] = {"digest": found.digest, "commit": found.commit, "folders": found.folders}
+    if before.get("digest") == found.digest and "small" in before:
+        entries[report.name]["small"] = before["small"]
+    write_lines(root / DIGESTS, entries)
+
+
+def store_small(root: Path, report: Report, digest: str) -> None:
+    """Stores the digest of a small run that was made with the inputs on which the report was measured."""
+    entries = _read(root / DIGESTS)
+    entries[report.name]["small"] = digest
+    write_lines(root / DIGESTS, entries)
+
+
+def store_confirmed(root: Path, report: Report, now: Inputs) -> None:
+    """Stores that a small run with the inputs `now` wrote the same files as the one of `store_small`."""
+    entries = _read(root / DIGESTS)
+    entries[report.name] |= {"confirmed": now.digest, "confirmed_commit": _head(root)}
     write_lines(root / DIGESTS, entries)
 
 
 def compared(report: Report, known: Measured | None, now: Inputs) -> Stale | None:
     if known is None:
         return Stale(report, ())
-    if known.digest == now.digest:
+    if now.digest in (known.digest, known.confirmed):
         return None
+    return Stale(report, _changed_places(known, now))
+
+
+def _changed_places(known: Measured, now: Inputs) -> tuple[str, ...]:
     changed = {place for place, digest in now.folders.items() if digest not in known.folders.values()}
     gone = {place for place, digest in known.folders.items() if digest not in now.folders.values()} - now.folders.keys()
     # A folder may have gone whose files lie in another one, too.
-    return Stale(report, tuple(sorted(changed or gone or known.folders.keys() ^ now.folders.keys())))
+    return tuple(sorted(changed or gone or known.folders.keys() ^ now.folders.keys()))
 
 
 def stale(root: Path, reports: dict[str, Report], tree: SourceTree) -> dict[str, Stale]:
@@ -146,45 +173,60 @@ def changed_files(root: Path, one: Stale, tree: SourceTree) -> list[str]:
 
 # ---- Pages -----------------------------------------------------------------------------------------------
 
+def first_lines(root: Path, reports: dict[str, Report], tree: SourceTree) -> dict[str, str]:
+    """First line of the pages of each report that is stale or confirmed."""
+    known = measured(root)
+    lines = {}
+    for name, report in reports.items():
+        now = inputs(report, tree)
+        if one := compared(report, known.get(name), now):
+            lines[name] = one.line
+        elif now.digest != known[name].digest:
+            lines[name] = (f"{CONFIRMED_MARK}changes in {_named(_changed_places(known[name], now))} since this page was measured. "
+                           f"`{report.command} SMALL=1` writes the same bytes before and after these changes.")
+    return lines
+
+
 def without_mark(text: str) -> str:
-    if not text.startswith(MARK):
+    if not text.startswith((MARK, CONFIRMED_MARK)):
         return text
     _, _, rest = text.partition("\n")
     return rest.removeprefix("\n")
 
 
-def with_mark(text: str, one: Stale | None) -> str:
+def with_mark(text: str, line: str | None) -> str:
     body = without_mark(text)
-    return body if one is None else f"{one.line}\n\n{body}"
+    return body if line is None else f"{line}\n\n{body}"
 
 
-def unmarked_pages(root: Path, reports: dict[str, Report], found: dict[str, Stale]) -> list[str]:
-    """A sentence for each page whose first line is wrong: a missing or outdated stale mark."""
+def _pages(root: Path, reports: dict[str, Report]) -> list[tuple[str, str, Path]]:
+    """Report, name and path of each page that exists."""
+    return [(name, page, root / "reports" / page) for name, report in reports.items() for page in report.pages
+            if (root / "reports" / page).is_file()]
+
+
+def unmarked_pages(root: Path, reports: dict[str, Report], lines: dict[str, str]) -> list[str]:
+    """A sentence for each page whose first line is wrong: a missing or outdated mark."""
     wrong = []
-    for name, report in reports.items():
-        for page in report.pages:
-            path = root / "reports" / page
-            if not path.is_file():
-                continue
-            text = path.read_text(encoding="utf-8")
-            if with_mark(text, found.get(name)) != text:
-                says = "is stale and its first line does not say so" if name in found and not text.startswith(MARK) else \
-                    "is fresh and its first line says that it is not" if name not in found else "does not say what changed"
-                wrong.append(f"reports/{page} {says}: run `make figures`")
+    for name, page, path in _pages(root, reports):
+        text = path.read_text(encoding="utf-8")
+        line = lines.get(name)
+        if with_mark(text, line) == text:
+            continue
+        says = "is fresh and its first line says that it is not" if line is None else \
+            "is confirmed and its first line does not say so" if line.startswith(CONFIRMED_MARK) else \
+            "does not say what changed" if text.startswith(MARK) else "is stale and its first line does not say so"
+        wrong.append(f"reports/{page} {says}: run `make figures`")
     return wrong
 
 
-def mark(root: Path, reports: dict[str, Report], found: dict[str, Stale]) -> list[str]:
-    """Writes the stale mark into stale pages and removes it from others; returns the changed pages."""
+def mark(root: Path, reports: dict[str, Report], lines: dict[str, str]) -> list[str]:
+    """Writes first lines into the pages of stale and confirmed reports and removes them from others; returns the changed pages."""
     changed = []
-    for name, report in reports.items():
-        for page in report.pages:
-            path = root / "reports" / page
-            if not path.is_file():
-                continue
-            text = path.read_text(encoding="utf-8")
-            wanted = with_mark(text, found.get(name))
-            if wanted != text:
-                path.write_text(wanted, encoding="utf-8")
-                changed.append(f"reports/{page}")
+    for name, page, path in _pages(root, reports):
+        text = path.read_text(encoding="utf-8")
+        wanted = with_mark(text, lines.get(name))
+        if wanted != text:
+            path.write_text(wanted, encoding="utf-8")
+            changed.append(f"reports/{page}")
     return changed

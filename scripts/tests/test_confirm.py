@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Small runs that confirm reports: in a small project, in which changes are planted."""
+
+from figures import confirm, staleness
+from figures.source_tree import SourceTree
+from tests.figures_project import FILES, Project
+
+SMALL_MEASURE = """\
+pareto:
+\tmkdir -p build/small/reports
+\tif [ -f broken ]; then exit 1; fi
+\tif [ -n "$(SMALL)" ]; then sed -n 's/.*return \\(.\\);.*/# Pareto \\1/p' models/dtof/core/b_part.cpp > build/small/reports/pareto.md; fi
+"""
+
+
+class Confirmations(Project):
+    """A small run confirms a stale report if it writes the same bytes as a small run made while the report was fresh."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.write(".gitignore", "build\nbroken\n")
+        self.write("Makefile", SMALL_MEASURE)
+        self.write("scripts/try_targets.toml", "pareto = { minutes = 0.1 }\nsynth = { arguments = 'CONFIGURATIONS=one' }\n")
+        self.commit()
+        self.measure()
+
+    def confirm(self, name: str = "pareto") -> str:
+        return confirm.confirm(self.root, self.reports()[name])
+
+    def line(self, name: str = "pareto") -> str:
+        return staleness.first_lines(self.root, self.reports(), SourceTree(self.root)).get(name, "")
+
+    def change(self, returned: str) -> None:
+        self.write("models/dtof/core/b_part.cpp", f'#include "dtof/core/b.hpp"\nint b() {{ return {returned}; }}\n')
+
+    def test_a_change_that_alters_no_byte_is_confirmed_and_the_page_says_so(self) -> None:
+        self.assertEqual(self.confirm(), "fresh: the digest of its small run is stored")
+        self.change("1; int more")
+        self.assertEqual(self.stale(), {"pareto": ("models/dtof/core",)})
+        self.assertIn("confirmed: ", self.confirm())
+        self.assertEqual(self.stale(), {})
+        self.assertEqual(self.line(), "> Confirmed: changes in models/dtof/core since this page was measured. `make pareto SMALL=1` writes "
+                                      "the same bytes before and after these changes.")
+        staleness.mark(self.root, self.reports(), {"pareto": self.line()})
+        page = (self.root / "reports/pareto.md").read_text(encoding="utf-8")
+        self.assertEqual(staleness.without_mark(page), FILES["reports/pareto.md"])
+
+    def test_a_change_that_alters_a_byte_stays_stale(self) -> None:
+        self.confirm()
+        self.change("2")
+        self.assertIn("stale: the small run writes other bytes", self.confirm())
+        self.assertIn("pareto", self.stale())
+
+    def test_what_is_confirmed_is_stale_after_the_next_change_and_is_compared_with_the_measurement(self) -> None:
+        self.confirm()
+        self.change("1; int more")
+        self.confirm()
+        self.change("3")
+        self.assertIn("pareto", self.stale())
+        self.assertIn("other bytes", self.confirm())
+
+    def test_nothing_is_confirmed_without_a_small_run_of_the_measured_inputs(self) -> None:
+        self.change("1; int more")
+        self.assertIn("no small run was made while it was fresh", self.confirm())
+        self.measure("pareto")
+        self.confirm()
+        self.change("4")
+        self.measure("pareto")  # the digest of the small run belongs to other inputs
+        self.change("1; int more")
+        self.assertIn("no small run was made while it was fresh", self.confirm())
+
+    def test_a_small_run_that_fails_or_leaves_something_out_confirms_nothing(self) -> None:
+        self.assertIn("leaves out configurations", self.confirm("area"))
+        self.write("broken", "")
+        self.assertIn("`make pareto SMALL=1` failed, see build/small/pareto.log", self.confirm())
+
+    def test_a_new_measurement_takes_the_confirmation_away(self) -> None:
+        self.confirm()
+        self.change("1; int more")
+        self.confirm()
+        self.measure("pareto")
+        self.assertEqual(self.line(), "")
+        self.assertEqual(staleness.measured(self.root)["pareto"].confirmed, "")
