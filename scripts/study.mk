@@ -88,34 +88,22 @@ trade: study-program
 	@scripts/reports.py record trade
 
 dynamic-range: study-program
-ifeq ($(SMALL),1)
-	@$(DTOF_STUDY) dynamic-range --acquisitions 333 3333 33333 --klux 2 14 --signals 1 10 --seeds 2 --seed $(SEED) \
-	  --out build/dynamic_range_small
-else
 	@scripts/reports.py begin dynamic_range
-	@$(DTOF_STUDY) dynamic-range --seed $(SEED) --out $(OUT)/dynamic_range
+	@$(DTOF_STUDY) dynamic-range $(if $(SMALL),--acquisitions 333 3333 33333 --klux 2 14 --signals 1 10 --seeds 2) \
+	  --seed $(SEED) --out $(OUT)/dynamic_range
 	@scripts/publish.py dynamic_range
-endif
 
 hostile-scenes: study-program
-ifeq ($(SMALL),1)
-	@$(DTOF_STUDY) hostile-scenes --condition clear glass late-laser --readout coarsehistogram,poolpointer --klux 14 \
-	  --rows 16 --seeds 2 --seed $(SEED) --out build/hostile_scenes_small
-else
 	@scripts/reports.py begin hostile_scenes
-	@$(DTOF_STUDY) hostile-scenes --seed $(SEED) --out $(OUT)/hostile_scenes
+	@$(DTOF_STUDY) hostile-scenes $(if $(SMALL),--klux 14 --rows 16 --seeds 2) \
+	  --seed $(SEED) --out $(OUT)/hostile_scenes
 	@scripts/publish.py hostile_scenes
-endif
 
 detection: study-program
-ifeq ($(SMALL),1)
-	@$(DTOF_STUDY) detection --readout ezpointer,poolpointer --klux 14 50 --distance 4 --seeds 2 --seed $(SEED) \
-	  --out build/detection_small
-else
 	@scripts/reports.py begin detection
-	@$(DTOF_STUDY) detection --seed $(SEED) --out $(OUT)/detection
+	@$(DTOF_STUDY) detection $(if $(SMALL),--klux 14 50 --distance 4 --seeds 2) \
+	  --seed $(SEED) --out $(OUT)/detection
 	@scripts/publish.py detection
-endif
 
 design-judgement: study-program
 	@scripts/reports.py begin design_judgement
@@ -123,14 +111,9 @@ design-judgement: study-program
 	@scripts/publish.py design_judgement
 
 frames: study-program
-ifeq ($(SMALL),1)
-	@$(DTOF_STUDY) frames --sensors thesis --readout ezpointer,coarsehistogram,poolpointer-lean --frames 2 \
-	  --rtl ezpointer --seed $(SEED) --out build/frames_small
-else
 	@scripts/reports.py begin frames
-	@$(DTOF_STUDY) frames --rtl poolpointer --seed $(SEED) --out $(OUT)/frames
+	@$(DTOF_STUDY) frames $(if $(SMALL),--sensors thesis --frames 2 --rtl ezpointer,--rtl poolpointer) --seed $(SEED) --out $(OUT)/frames
 	@scripts/publish.py frames
-endif
 
 walk-error: study-program
 	@scripts/reports.py begin walk_error
