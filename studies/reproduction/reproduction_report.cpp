@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "accuracy/accuracy_tables.hpp"
@@ -158,7 +158,7 @@ class Rendering : public ReproductionPart {
     text_ += "## Fig. 3.11: how wide hisPointer's filter must be\n\n";
     std::vector<PlotSeries> series;
     for (const FilteredCounts& filter : r_.filters) {
-      series.push_back(bins_of(fmt::format("GUARD {}", filter.guard), filter.remaining, 1.0, 400));
+      series.push_back(bins_of(guard_title(filter.guard), filter.remaining, 1.0, 400));
     }
     picture("figure_3_11.svg", series,
             {.title = "Counts per frame that the filter leaves of the second measurement: " + flat(14.0, 1.0),
