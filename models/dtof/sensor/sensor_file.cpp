@@ -27,7 +27,7 @@
 namespace dtof {
 namespace {
 
-constexpr double kNano = 1e9;
+constexpr double kNanosecondsPerSecond = 1e9;
 
 class SensorReader {
  public:
@@ -71,7 +71,8 @@ class SensorReader {
     }
     if (draft.model.pulse_fwhm_s >= draft.model.integration_time_s) {
       fail_in("laser", fmt::format("a pulse of {:g} ns does not fit into a range of {:g} ns",
-                                   draft.model.pulse_fwhm_s * kNano, draft.model.integration_time_s * kNano));
+                                   draft.model.pulse_fwhm_s * kNanosecondsPerSecond,
+                                   draft.model.integration_time_s * kNanosecondsPerSecond));
     }
     read_code_widths(draft.model);
     read_detector(draft.model);
