@@ -69,9 +69,9 @@ class Descriptions(unittest.TestCase):
         self.assertIn("set(DTOF_DEFAULT_NB_pifh 3 4 5 6 7 7", generate.cmake(table))
 
     def test_a_new_parameter_is_in_the_lists_of_c_plus_plus(self):
-        new = 'SPREAD = { default = 3, help = "bins of the spread" }\nSPREAD_PORTS = { default = 1, help = "ports" }\nGUARD = {'
-        text = TEXT.replace("GUARD = {", new, 1).replace('"GUARD", "WINDOW_CENTRED", "POINTER_PORTS"', '"GUARD", "SPREAD", "SPREAD_PORTS", "POINTER_PORTS"')
-        text = text.replace('"CONFIDENCE_WIDTH", "GUARD"]', '"CONFIDENCE_WIDTH", "GUARD", "SPREAD"]')
+        new = 'SPREAD = { default = 3, help = "bins of the spread" }\nSPREAD_PORTS = { default = 1, help = "ports" }\nTIME_GATE = {'
+        text = TEXT.replace("TIME_GATE = {", new, 1).replace('"WINDOW_CENTRED", "POINTER_PORTS"', '"WINDOW_CENTRED", "SPREAD", "SPREAD_PORTS", "POINTER_PORTS"')
+        text = text.replace('"COUNT_WIDTH", "WINDOW_CENTRED"]', '"COUNT_WIDTH", "WINDOW_CENTRED", "SPREAD"]')
         table = readouts.parse(text)
         self.assertIn('entry<&ReadoutParameters::spread>("SPREAD",\n        "bins of the spread"),', readouts_cpp.parameter_table(table))
         self.assertNotIn("spread_ports", readouts_cpp.parameter_table(table))  # changes no result
