@@ -18,7 +18,7 @@ from dtof_synth import program
 from dtof_synth.errors import FlowError
 from dtof_synth.readouts import Expression, Readout, Table, Top, evaluate, load
 from figures import reports
-from readouts_cpp import WRITTEN, cpp_header, cpp_source, model_table, translated
+from readouts_cpp import WRITTEN, cpp_header, cpp_source, model_table, parameter_table, rtl_parameters, translated
 
 ROOT = Path(__file__).resolve().parent.parent
 FEWEST_BITS, MOST_BITS = 3, 16  # of a timestamp
@@ -334,7 +334,9 @@ def main() -> int:
             "hdl/common/dtof_columns.svh": columns(table),
             "models/dtof/core/readout.hpp": cpp_header(table),
             "models/dtof/core/readout.cpp": cpp_source(table),
+            "models/dtof/core/parameter_table.cpp": parameter_table(table),
             "models/dtof/readout/model_table.cpp": model_table(table),
+            "tb_cpp/rtl/rtl_parameters.cpp": rtl_parameters(table),
             "cmake/readouts.cmake": cmake(table),
             "hdl/dtof_no_srams.f": file_lists.without_srams(listing),
             "dtof.core": file_lists.fusesoc(table, listing, file_lists.included(ROOT / "hdl")),

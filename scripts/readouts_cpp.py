@@ -10,6 +10,8 @@ from dtof_synth.readouts import Expression, Table
 
 WRITTEN = "Written by scripts/generate.py from readouts.toml."
 POINTER = "pointer"
+MEMBERS = {"ADVANTAGE_WIDTH": "count_bits"}  # members of C++ that are not called as the parameter
+FIXED = ("ACQ_WIDTH", "BROADCAST_STAGES")
 
 
 def translated(expression: Expression, name: Callable[[str], str], function: Callable[[str], str]) -> str:
@@ -167,6 +169,67 @@ int default_value(Readout readout, std::string_view parameter, int np) {{
 {common}
   throw std::logic_error("no parameter of this name");
 }}
+
+}}  // namespace dtof
+"""
+
+
+def model_members(table: Table) -> dict[str, str]:
+    """Parameters that change a model's result, and the member that has each: of ReadoutParameters, or of PoolPointerParameters where only
+    pool read-outs have the parameter."""
+    pool = [top for top in table.tops.values() if top.schedule]
+    others = {name for top in table.tops.values() if not top.schedule for name in top.parameters}
+    chosen = {"NP", "SLOTS", *(name for readout in table.readouts.values() for name in readout.choices)}
+    own = {name for top in pool for name in (*top.parameters, *top.schedule)} - others
+    member = lambda name: MEMBERS.get(name, name.lower())  # noqa: E731
+    return {name: f"PoolPointerParameters::{member(name)}" if name in own else f"ReadoutParameters::{member(name)}"
+            for name in table.parameters if name in own | chosen}  # fmt: skip
+
+
+def parameter_table(table: Table) -> str:
+    rows = "\n".join(f'    entry<&{member}>("{name}",\n        "{table.parameters[name].help}"),'
+                     for name, member in model_members(table).items())  # fmt: skip
+    return f"""// SPDX-License-Identifier: Apache-2.0
+// {WRITTEN}
+// clang-format off
+#include "dtof/core/parameter_entry.hpp"
+
+namespace dtof {{
+namespace {{
+
+constexpr auto kEntries = std::to_array<ParameterEntry>({{
+{rows}
+}});
+
+}}  // namespace
+
+std::span<const ParameterEntry> parameter_entries() {{ return kEntries; }}
+
+}}  // namespace dtof
+"""
+
+
+def rtl_parameters(table: Table) -> str:
+    """Parameters of the top modules, as tb_cpp/rtl/settings.cpp writes them. Those of which a compiled array has one value come last."""
+    names = list(dict.fromkeys(name for top in table.tops.values() for name in (*top.parameters, *top.schedule)))
+    names = [name for name in names if name not in FIXED] + [name for name in names if name in FIXED]
+    rows = "\n".join("    {{\"{}\", {}}},".format(name, ", ".join(str(name in top.parameters and name != "ACQ_WIDTH").lower()
+                                                                     for top in table.tops.values())) for name in names)
+    return f"""// SPDX-License-Identifier: Apache-2.0
+// {WRITTEN}
+// clang-format off
+#include "rtl/rtl_parameters.hpp"
+
+namespace dtof {{
+namespace {{
+
+constexpr auto kParameters = std::to_array<RtlParameter>({{
+{rows}
+}});
+
+}}  // namespace
+
+std::span<const RtlParameter> rtl_parameters() {{ return kParameters; }}
 
 }}  // namespace dtof
 """

@@ -5,12 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 
 #include "command_line/option_checks.hpp"
 #include "dtof/core/error.hpp"
+#include "dtof/core/parameter_entry.hpp"
 #include "dtof/frame/empty_frame.hpp"
 #include "dtof/frame/frame_truth.hpp"
 #include "dtof/sensor/default_parameters.hpp"
@@ -28,6 +29,22 @@ void override_with(const std::optional<T>& value, T& parameter) {
   }
 }
 
+/// True if some read-out can choose the parameter.
+bool is_choice(std::string_view parameter) {
+  return parameter == "NP" || parameter == "SLOTS" || std::ranges::any_of(kAllReadouts, [&](Readout readout) {
+           return has_parameter(readout, parameter);
+         });
+}
+
+/// "--count-width" of COUNT_WIDTH.
+std::string option_of(std::string_view parameter) {
+  std::string option = "--";
+  for (const char letter : parameter) {
+    option += letter == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  }
+  return option;
+}
+
 }  // namespace
 
 void ReadoutOptions::add_to(CLI::App& command) {
@@ -38,17 +55,21 @@ void ReadoutOptions::add_to(CLI::App& command) {
           "read-outs to run: all, thesis (its eight), or names from `dtof list`, separated by commas")
       ->take_last()
       ->capture_default_str();
-  group->add_option("--np", np, "NP, bits of a timestamp (default: the sensor's, 10 for a recording)");
-  group->add_option("--nb", nb, "NB, bits of the coarse index (default: the read-out's own)");
-  group->add_option("--slots", slots, "SLOTS, timestamps per pixel and acquisition (default: the sensor's)");
-  group->add_option("--count-width", count_width, "COUNT_WIDTH, bits of a histogram bin");
-  group->add_option("--pointer-step", pointer_step, "POINTER_STEP, bins");
-  group->add_option("--fraction-bits", fraction_bits, "FRACTION_BITS of the pointer read-outs");
-  group->add_option("--confidence-width", confidence_width, "CONFIDENCE_WIDTH of the pointer read-outs");
-  group->add_option("--guard", guard, "GUARD of hisPointer's window, bins (default: the pulse's FWHM)");
-  group->add_option("--cell-shift", cell_shift,
-                    "CELL_SHIFT of the pool read-outs, 8 to 10 (default: what the pulse asks for)");
-  group->add_flag("--window-centred", window_centred, "WINDOW_CENTRED: SiFH's window as in Fig. 3.8");
+  for (const ParameterEntry& entry : parameter_entries()) {
+    if (!is_choice(entry.name)) {
+      continue;
+    }
+    const std::string option = option_of(entry.name);
+    const std::string help = fmt::format("{}: {}", entry.name, entry.help);
+    if (entry.flag) {
+      group->add_flag_callback(
+          option, [this, name = entry.name] { values[name] = 1; }, help);
+    } else {
+      group->add_option_function<int>(
+          option, [this, name = entry.name](const int& number) { values[name] = number; },
+          fmt::format("{}\n(default: {})", help, default_source(entry.name)));
+    }
+  }
   group
       ->add_option("--code-gate", code_gate,
                    "TIME_GATE of the read-out: codes BEGIN <= x < END count (--gate is the sensor's own)")
@@ -58,11 +79,16 @@ void ReadoutOptions::add_to(CLI::App& command) {
       "TEMPLATE of the pool read-outs: decode takes away what the sensor's cover glass and fog send back");
 }
 
+std::optional<int> ReadoutOptions::value(std::string_view parameter) const {
+  const auto found = values.find(parameter);
+  return found == values.end() ? std::nullopt : std::optional(found->second);
+}
+
 std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readout> all,
                                                           const SensorModel& sensor) const {
   SensorModel asked = sensor;
-  override_with(np, asked.np);
-  override_with(slots, asked.slots);
+  override_with(value("NP"), asked.np);
+  override_with(value("SLOTS"), asked.slots);
   std::vector<Readout> chosen;
   for (const std::string& name : CLI::detail::split(readouts, ',')) {
     if (name == "all") {
@@ -73,35 +99,12 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
       chosen.push_back(parse_readout(name));
     }
   }
-  struct Override {
-    std::string_view option;
-    std::string_view parameter;
-    std::optional<int> value;
-    int ReadoutParameters::*member;
-  };
-  const std::array<Override, 6> overrides = {{
-      {"--nb", "NB", nb, &ReadoutParameters::nb},
-      {"--count-width", "COUNT_WIDTH", count_width, &ReadoutParameters::count_width},
-      {"--pointer-step", "POINTER_STEP", pointer_step, &ReadoutParameters::pointer_step},
-      {"--fraction-bits", "FRACTION_BITS", fraction_bits, &ReadoutParameters::fraction_bits},
-      {"--confidence-width", "CONFIDENCE_WIDTH", confidence_width, &ReadoutParameters::confidence_width},
-      {"--guard", "GUARD", guard, &ReadoutParameters::guard},
-  }};
-  const auto require_owner = [&](std::string_view option, std::string_view parameter) {
-    if (std::ranges::none_of(chosen, [&](Readout readout) { return has_parameter(readout, parameter); })) {
-      throw InputError(fmt::format("{} has no effect: {} has no {}", option, readouts, parameter));
+  for (const auto& [name, number] : values) {
+    const bool for_all = name == "NP" || name == "SLOTS";
+    if (!for_all &&
+        std::ranges::none_of(chosen, [&](Readout readout) { return has_parameter(readout, name); })) {
+      throw InputError(fmt::format("{} has no effect: {} has no {}", option_of(name), readouts, name));
     }
-  };
-  for (const Override& change : overrides) {
-    if (change.value) {
-      require_owner(change.option, change.parameter);
-    }
-  }
-  if (cell_shift) {
-    require_owner("--cell-shift", "CELL_SHIFT");
-  }
-  if (window_centred) {
-    require_owner("--window-centred", "WINDOW_CENTRED");
   }
   if (with_template) {
     if (std::ranges::none_of(chosen, is_pool_readout)) {
@@ -114,15 +117,11 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
   std::vector<ReadoutParameters> sets;
   for (const Readout readout : chosen) {
     ReadoutParameters parameters = default_parameters(readout, asked);
-    for (const Override& change : overrides) {
-      if (change.value && has_parameter(readout, change.parameter)) {
-        parameters.*change.member = *change.value;
+    for (const auto& [name, number] : values) {
+      if (has_parameter(readout, name)) {
+        find_parameter_entry(name)->set(parameters, number);
       }
     }
-    if (has_parameter(readout, "CELL_SHIFT")) {
-      override_with(cell_shift, parameters.pool.cell_shift);
-    }
-    parameters.window_centred = window_centred && has_parameter(readout, "WINDOW_CENTRED");
     if (!code_gate.empty()) {
       parameters.time_gate = CodeGate{code_gate[0], code_gate[1]};
     }

@@ -3,9 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dtof/analytic/fidelity.hpp"
@@ -18,20 +20,15 @@ namespace dtof {
 /// --readout and the options that override read-out parameters.
 struct ReadoutOptions {
   std::string readouts = "all";  ///< names, separated by commas
-  std::optional<int> np;
-  std::optional<int> nb;
-  std::optional<int> slots;
-  std::optional<int> count_width;
-  std::optional<int> pointer_step;
-  std::optional<int> fraction_bits;
-  std::optional<int> confidence_width;
-  std::optional<int> guard;
-  std::optional<int> cell_shift;
-  bool window_centred = false;
+  /// Values of --np, --nb, ..., by the parameter's name. Each parameter that a read-out can choose has an
+  /// option.
+  std::map<std::string_view, int> values;
   std::vector<int> code_gate;
   bool with_template = false;
 
   void add_to(CLI::App& command);
+  /// Value of an option; none if the option was not given.
+  [[nodiscard]] std::optional<int> value(std::string_view parameter) const;
   /// True if the user asked for "all" read-outs and no others.
   [[nodiscard]] bool all() const { return readouts == "all"; }
   /// Parameters of each requested read-out. "all" stands for `all`, "thesis" for kThesisReadouts. Parameters

@@ -287,10 +287,8 @@ class DepthSheet {
   const std::vector<std::string>& estimators_;
 };
 
-void run_video_command(const VideoOptions& options, JsonResult& result) {
-  const std::vector<ReadoutParameters> readouts =
-      options.readout.parameters(kAllReadouts, options.sensor.with_options());
-  const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
+/// The asked scenes with the asked motions, without the pairs that do not exist.
+std::vector<Video> asked_videos(const VideoOptions& options, const SensorModel& sensor) {
   std::vector<Video> videos;
   for (const std::string& scene : options.scenes) {
     for (const std::string& motion : options.motions) {
@@ -305,7 +303,7 @@ void run_video_command(const VideoOptions& options, JsonResult& result) {
       sequence.speed = options.speed;
       sequence.klux = options.sensor.klux;
       if (has_motion(sequence.scene, sequence.motion)) {
-        // What is wrong is said before hours of work.
+        // Errors of the input are found before hours of work.
         require_reachable(sequence_frame(sequence, 0).targets, sensor, "--scene " + scene);
         videos.push_back({sequence, {}});
       }
@@ -315,16 +313,14 @@ void run_video_command(const VideoOptions& options, JsonResult& result) {
     throw InputError(fmt::format("video: roll and object are motions of the room, not of {}",
                                  fmt::join(options.scenes, ", ")));
   }
-  std::vector<VideoReader> readers;
-  for (int number = 0; number < options.seeds; ++number) {
-    readers.emplace_back(sensor, readouts, options.sensor.klux,
-                         options.seed + static_cast<std::uint64_t>(number), options.threads);
-  }
-  const VideoReader& reader = readers.front();
-  const std::vector<std::string>& estimators = reader.estimators();
+  return videos;
+}
+
+/// Reads each video with each reader, and writes the pictures of each video.
+void read_videos(std::vector<Video>& videos, const std::vector<VideoReader>& readers,
+                 const VideoOptions& options, const std::string& sensor, const std::string& plots_obstacle) {
   const std::filesystem::path folder(options.out);
-  create_output_folder(folder);
-  const std::string plots_obstacle = plot_obstacle();
+  const std::vector<std::string>& estimators = readers.front().estimators();
   Progress progress("frames", videos.size() * readers.size() * static_cast<std::size_t>(options.frames));
   for (Video& video : videos) {
     DepthSheet sheet(options.frames, estimators);
@@ -338,27 +334,40 @@ void run_video_command(const VideoOptions& options, JsonResult& result) {
         }
       }));
     }
-    write_picture(folder / fmt::format("{}.svg", video.name()), video, estimators, sensor.name,
-                  plots_obstacle);
+    write_picture(folder / fmt::format("{}.svg", video.name()), video, estimators, sensor, plots_obstacle);
     sheet.write(folder / fmt::format("{}_depth.png", video.name()),
-                fmt::format("Depth in m: {}, sensor {}", video.description(), sensor.name),
-                options.command_line);
+                fmt::format("Depth in m: {}, sensor {}", video.description(), sensor), options.command_line);
   }
+}
+
+/// "seed 1" or "seeds 1 to 4".
+std::string seeds_text(const VideoOptions& options) {
+  return options.seeds == 1 ? fmt::format("seed {}", options.seed)
+                            : fmt::format("seeds {} to {}", options.seed,
+                                          options.seed + static_cast<std::uint64_t>(options.seeds) - 1);
+}
+
+/// The sections with tables: for the page and for the standard output.
+std::string video_tables(const std::vector<Video>& videos, const VideoReader& reader) {
   std::string tables =
       fmt::format("## Frames behind the first: above 3 % / above 10 %, per cent of pixels\n\n{}",
-                  overview(videos, estimators).markdown());
-  const std::string seeds = options.seeds == 1
-                                ? fmt::format("seed {}", options.seed)
-                                : fmt::format("seeds {} to {}", options.seed,
-                                              options.seed + static_cast<std::uint64_t>(options.seeds) - 1);
+                  overview(videos, reader.estimators()).markdown());
+  if (const std::optional<std::size_t> without = reader.without_prior()) {
+    tables += fmt::format("\n## What the prior changes\n\n{}",
+                          prior_table(videos, *without, reader.estimators().size() - 1).markdown());
+  }
+  return tables;
+}
+
+/// The page. `pictures`: the videos whose plots the page shows.
+std::string video_page(const VideoOptions& options, const SensorModel& sensor, bool with_prior,
+                       const std::string& tables, std::span<const Video> pictures) {
   std::string report = fmt::format(
       "# Videos\n\nEvery frame has photons of its own; {} frames, sensor {}, {:g} klux unless the light "
       "changes, {}. Each read-out has a look-up table fitted at {:g} klux and reads each frame on its "
       "own",
-      options.frames, sensor.name, options.sensor.klux, seeds, options.sensor.klux);
-  if (const std::optional<std::size_t> without = reader.without_prior()) {
-    tables += fmt::format("\n## What the prior changes\n\n{}",
-                          prior_table(videos, *without, estimators.size() - 1).markdown());
+      options.frames, sensor.name, options.sensor.klux, seeds_text(options), options.sensor.klux);
+  if (with_prior) {
     report +=
         "; with the prior poolPointer begins a frame from the candidates that were used in the last one "
         "(`docs/reference/poolpointer.md`)";
@@ -374,16 +383,38 @@ void run_video_command(const VideoOptions& options, JsonResult& result) {
     report += fmt::format("* {}: {}.\n", motion, motion_summary(parse_motion(motion)));
   }
   report += fmt::format("\n{}\nEvery frame: [video.csv](video.csv).\n", tables);
-  for (const Video& video : plots_obstacle.empty() ? videos : std::vector<Video>()) {
+  for (const Video& video : pictures) {
     report += fmt::format("\n![{} {}]({}.svg)\n", scene_name(video.sequence.scene),
                           motion_name(video.sequence.motion), video.name());
   }
-  report += fmt::format("\nCommand: `{}`\n", options.command_line);
-  write_file(folder / "video.csv", frames_csv(videos, estimators).csv());
-  write_file(folder / "video.md", report);
-  result["frames"] = json_rows(frames_csv(videos, estimators));
+  return report + fmt::format("\nCommand: `{}`\n", options.command_line);
+}
+
+void run_video_command(const VideoOptions& options, JsonResult& result) {
+  const std::vector<ReadoutParameters> readouts =
+      options.readout.parameters(kAllReadouts, options.sensor.with_options());
+  const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
+  std::vector<Video> videos = asked_videos(options, sensor);
+  std::vector<VideoReader> readers;
+  for (int number = 0; number < options.seeds; ++number) {
+    readers.emplace_back(sensor, readouts, options.sensor.klux,
+                         options.seed + static_cast<std::uint64_t>(number), options.threads);
+  }
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+  const std::string plots_obstacle = plot_obstacle();
+  read_videos(videos, readers, options, sensor.name, plots_obstacle);
+  const VideoReader& reader = readers.front();
+  const std::string tables = video_tables(videos, reader);
+  const std::span<const Video> pictures =
+      plots_obstacle.empty() ? std::span<const Video>(videos) : std::span<const Video>();
+  const Table every_frame = frames_csv(videos, reader.estimators());
+  write_file(folder / "video.csv", every_frame.csv());
+  write_file(folder / "video.md",
+             video_page(options, sensor, reader.without_prior().has_value(), tables, pictures));
+  result["frames"] = json_rows(every_frame);
   result.add_folder(folder);
-  fmt::print("{}\nWith {}. Written to {}\n", tables, seeds, (folder / "video.md").string());
+  fmt::print("{}\nWith {}. Written to {}\n", tables, seeds_text(options), (folder / "video.md").string());
 }
 
 }  // namespace

@@ -14,14 +14,12 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+import merge
+import plan
+import run_batch
+from single_node_slurm import SingleNodeSlurm
+
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-
-import merge  # noqa: E402
-import plan  # noqa: E402
-import run_batch  # noqa: E402
-from single_node_slurm import SingleNodeSlurm  # noqa: E402
-
 ROOT = HERE.parent.parent
 FOLDER = ROOT / "build" / "sweep_cost"
 REPETITIONS = 3

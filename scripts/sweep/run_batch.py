@@ -13,9 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import plan  # noqa: E402
+import plan
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 

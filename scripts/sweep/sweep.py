@@ -62,10 +62,17 @@ def cancel_jobs(name: str) -> None:
         time.sleep(0.5)
 
 
-def snakemake(sweep: Path, folder: Path, arguments: argparse.Namespace) -> list[str]:
+def list_batches(sweep: plan.Sweep, folder: Path) -> Path:
+    """Writes the results of all batches, one per line, for the Snakefile."""
+    path = folder / "batches.txt"
+    path.write_text("".join(f"{plan.batch_file(folder, sweep.batch(number))}\n" for number in range(sweep.batches)), encoding="utf-8")
+    return path
+
+
+def snakemake(sweep: Path, folder: Path, batches: Path, arguments: argparse.Namespace) -> list[str]:
     # Snakemake would write a file about the origin of each result; the names of our files say that already.
     command = ["snakemake", "--snakefile", str(HERE / "Snakefile"), "--directory", str(folder), "--config",
-               f"sweep={sweep}", f"folder={folder}", "--rerun-triggers", "mtime", "--rerun-incomplete", "--keep-going",
+               f"sweep={sweep}", f"folder={folder}", f"batches={batches}", "--rerun-triggers", "mtime", "--rerun-incomplete", "--keep-going",
                "--drop-metadata", "--scheduler", "greedy", "--nocolor"]
     if arguments.slurm:
         return [*command, "--profile", str(HERE / "slurm"), "--jobs", str(arguments.jobs or SUBMITTED_AT_ONCE)]
@@ -124,7 +131,7 @@ def main() -> int:
             print(f"{sweep.name}: {sweep.points} points in {sweep.batches} batches, {folder}", flush=True)
             if arguments.slurm:
                 cancel_jobs(job_name(folder))
-            if run(snakemake(path, folder, arguments), folder, lock) != 0:
+            if run(snakemake(path, folder, list_batches(sweep, folder), arguments), folder, lock) != 0:
                 raise plan.SweepError(f"sweep {sweep.name}: jobs failed ({folder / logs} has more); what is done is kept, run it "
                                       "again for the rest")
             text = merge.merged(sweep, folder)

@@ -19,6 +19,8 @@ FILES = {
     "app/run/r.hpp": "int r();\n",
 }
 
+NAME = check_house.PARAMETER.pattern.replace(r"\b", "")  # of the parameter whose files are counted
+
 
 class House(unittest.TestCase):
     def setUp(self) -> None:
@@ -52,13 +54,13 @@ class House(unittest.TestCase):
         self.assertIn("models/dtof/photon: a library of models/ depends on run in app/run", self.arrows())
 
     def test_what_is_counted(self) -> None:
-        self.write("app/long.cpp", "int f(int a) {\n" + "  ++a;\n" * 90 + "}\n" + "// GUARD\n" * 500)
+        self.write("app/long.cpp", "int f(int a) {\n" + "  ++a;\n" * 90 + "}\n" + f"// {NAME}\n" * 500)
         self.write("scripts/long.py", "def f():\n" + "    pass\n" * 90)
         self.write("scripts/short.py", "def f():\n" + "    pass\n" * 70)
-        self.write("scripts/written.py", "# Written by scripts/generate.py\n" + "GUARD = 1\n" * 600)
-        self.write("hdl/a.sv", "parameter int GUARD = 1;\n")
+        self.write("scripts/written.py", "# Written by scripts/generate.py\n" + f"{NAME} = 1\n" * 600)
+        self.write("hdl/a.sv", f"parameter int {NAME} = 1;\n")
         self.assertEqual(check_house.counts(self.root, check_house.listed(self.root)),
-                         {"files_above_500_lines": 1, "functions_above_80_lines": 2, "files_that_name_GUARD": 1, "edits_of_sys_path": 0})
+                         {"files_above_500_lines": 1, "functions_above_80_lines": 2, f"files_that_name_{NAME}": 1, "edits_of_sys_path": 0})
 
     def test_edits_of_sys_path(self) -> None:
         for line, edits in (("sys.path.insert(0, 'a')", 1), ("sys.path[:0] = ['a']", 1), ("sys.path += ['a']", 1), ("sys.path = []", 1),

@@ -68,6 +68,24 @@ class Descriptions(unittest.TestCase):
         self.assertIn("return std::min(np, 7);", readouts_cpp.cpp_source(table))
         self.assertIn("set(DTOF_DEFAULT_NB_pifh 3 4 5 6 7 7", generate.cmake(table))
 
+    def test_a_new_parameter_is_in_the_lists_of_c_plus_plus(self):
+        new = 'SPREAD = { default = 3, help = "bins of the spread" }\nSPREAD_PORTS = { default = 1, help = "ports" }\nTIME_GATE = {'
+        text = TEXT.replace("TIME_GATE = {", new, 1).replace('"WINDOW_CENTRED", "POINTER_PORTS"', '"WINDOW_CENTRED", "SPREAD", "SPREAD_PORTS", "POINTER_PORTS"')
+        text = text.replace('"COUNT_WIDTH", "WINDOW_CENTRED"]', '"COUNT_WIDTH", "WINDOW_CENTRED", "SPREAD"]')
+        table = readouts.parse(text)
+        self.assertIn('entry<&ReadoutParameters::spread>("SPREAD",\n        "bins of the spread"),', readouts_cpp.parameter_table(table))
+        self.assertNotIn("spread_ports", readouts_cpp.parameter_table(table))  # changes no result
+        self.assertIn('{"SPREAD", true, false},\n    {"SPREAD_PORTS", true, false},', readouts_cpp.rtl_parameters(table))
+
+    def test_members_of_the_models(self):
+        members = readouts_cpp.model_members(readouts.parse(TEXT))
+        self.assertEqual(members["NP"], "ReadoutParameters::np")
+        self.assertEqual(members["COUNT_WIDTH"], "ReadoutParameters::count_width")
+        self.assertEqual(members["CELL_SHIFT"], "PoolPointerParameters::cell_shift")
+        self.assertEqual(members["ADVANTAGE_WIDTH"], "PoolPointerParameters::count_bits")
+        for name in ("SRAM_NUM", "POINTER_PORTS", "TIME_GATE", "ACQ_WIDTH", "BROADCAST_STAGES"):
+            self.assertNotIn(name, members)
+
     def test_bad_descriptions_are_refused(self):
         for change, message in (
             (("number = 6", "number = 5"), "each once"),

@@ -11,39 +11,43 @@
 #include <vector>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/parameter_entry.hpp"
 #include "dtof/sensor/default_parameters.hpp"
 
 namespace dtof {
 namespace {
 
+/// A parameter that a variant may change. All but SMOOTH, a register, are in readouts.toml.
 struct Parameter {
   std::string_view name;
   bool pool;       ///< of the pool read-outs
   bool pixelwise;  ///< of the others
-  int (*get)(const ReadoutParameters&);
-  void (*set)(ReadoutParameters&, int);
 };
 
+constexpr std::string_view kSmooth = "SMOOTH";
 constexpr std::array<Parameter, 9> kParameters = {{
-    {"COUNT_WIDTH", true, true, [](const ReadoutParameters& p) { return p.count_width; },
-     [](ReadoutParameters& p, int value) { p.count_width = value; }},
-    {"FRACTION_BITS", false, true, [](const ReadoutParameters& p) { return p.fraction_bits; },
-     [](ReadoutParameters& p, int value) { p.fraction_bits = value; }},
-    {"WINDOW_CENTRED", false, true, [](const ReadoutParameters& p) { return p.window_centred ? 1 : 0; },
-     [](ReadoutParameters& p, int value) { p.window_centred = value != 0; }},
-    {"LABELS", true, false, [](const ReadoutParameters& p) { return p.pool.labels; },
-     [](ReadoutParameters& p, int value) { p.pool.labels = value; }},
-    {"SCORE_BITS", true, false, [](const ReadoutParameters& p) { return p.pool.score_bits; },
-     [](ReadoutParameters& p, int value) { p.pool.score_bits = value; }},
-    {"CELL_SHIFT", true, false, [](const ReadoutParameters& p) { return p.pool.cell_shift; },
-     [](ReadoutParameters& p, int value) { p.pool.cell_shift = value; }},
-    {"COARSE_SHARE", true, false, [](const ReadoutParameters& p) { return p.pool.coarse_share; },
-     [](ReadoutParameters& p, int value) { p.pool.coarse_share = value; }},
-    {"TRACK_SHARE", true, false, [](const ReadoutParameters& p) { return p.pool.track_share; },
-     [](ReadoutParameters& p, int value) { p.pool.track_share = value; }},
-    {"SMOOTH", true, false, [](const ReadoutParameters& p) { return p.pool.smooth ? 1 : 0; },
-     [](ReadoutParameters& p, int value) { p.pool.smooth = value != 0; }},
+    {"COUNT_WIDTH", true, true},
+    {"FRACTION_BITS", false, true},
+    {"WINDOW_CENTRED", false, true},
+    {"LABELS", true, false},
+    {"SCORE_BITS", true, false},
+    {"CELL_SHIFT", true, false},
+    {"COARSE_SHARE", true, false},
+    {"TRACK_SHARE", true, false},
+    {kSmooth, true, false},
 }};
+
+int value_of(const ReadoutParameters& parameters, std::string_view name) {
+  return name == kSmooth ? (parameters.pool.smooth ? 1 : 0) : find_parameter_entry(name)->get(parameters);
+}
+
+void change(ReadoutParameters& parameters, std::string_view name, int value) {
+  if (name == kSmooth) {
+    parameters.pool.smooth = value != 0;
+  } else {
+    find_parameter_entry(name)->set(parameters, value);
+  }
+}
 
 bool has(Readout readout, const Parameter& parameter) {
   return is_pool_readout(readout) ? parameter.pool
@@ -84,21 +88,21 @@ ReadoutParameters parse_variant(const std::string& text, const SensorModel& sens
   std::string_view rest = std::string_view(text).substr(colon + 1);
   for (bool more = true; more;) {
     const std::size_t comma = rest.find(',');
-    const std::string_view change = rest.substr(0, comma);
+    const std::string_view setting = rest.substr(0, comma);
     more = comma != std::string_view::npos;
     rest.remove_prefix(more ? comma + 1 : rest.size());
-    const std::size_t equals = change.find('=');
+    const std::size_t equals = setting.find('=');
     int value = 0;
-    if (equals == std::string_view::npos || !parse_number(change.substr(equals + 1), value)) {
+    if (equals == std::string_view::npos || !parse_number(setting.substr(equals + 1), value)) {
       throw malformed();
     }
-    const auto parameter = std::ranges::find(kParameters, change.substr(0, equals), &Parameter::name);
+    const auto parameter = std::ranges::find(kParameters, setting.substr(0, equals), &Parameter::name);
     if (parameter == kParameters.end() || !has(parameters.readout, *parameter)) {
       throw InputError(fmt::format("variant {}: {} has no {} to change; known are {}", text,
-                                   readout_name(parameters.readout), change.substr(0, equals),
+                                   readout_name(parameters.readout), setting.substr(0, equals),
                                    variant_parameters_help()));
     }
-    parameter->set(parameters, value);
+    change(parameters, parameter->name, value);
   }
   parameters.validate();
   return parameters;
@@ -110,8 +114,8 @@ std::string variant_title(const ReadoutParameters& parameters, const SensorModel
   const ReadoutParameters defaults = default_parameters(parameters.readout, own);
   std::string title(readout_title(parameters.readout));
   for (const Parameter& parameter : kParameters) {
-    const int value = parameter.get(parameters);
-    if (has(parameters.readout, parameter) && value != parameter.get(defaults)) {
+    const int value = value_of(parameters, parameter.name);
+    if (has(parameters.readout, parameter) && value != value_of(defaults, parameter.name)) {
       title += fmt::format(" {}={}", parameter.name, value);
     }
   }

@@ -55,8 +55,8 @@ struct MeasuredOptions {
 
   [[nodiscard]] Resampling resampling() const {
     Resampling resampling;
-    resampling.np = readout.np.value_or(SensorModel().np);
-    resampling.slots = readout.slots.value_or(2);
+    resampling.np = readout.value("NP").value_or(SensorModel().np);
+    resampling.slots = readout.value("SLOTS").value_or(2);
     resampling.integration_time = t_int_ns * 1e-9;
     resampling.acquisitions = acquisitions;
     resampling.seed = run.seed;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -259,10 +260,8 @@ Table goal_table(const std::map<double, Scores>& lights) {
   return table;
 }
 
-void run_pool_command(PoolOptions options) {
-  const TableRule rule = parse_table_rule(options.table);
-  const SensorModel sensor = find_sensor(options.sensor);
-  options.columns = sensor.columns;
+/// Throws InputError for options that cannot be used, before any file is written.
+void check_options(const PoolOptions& options, const SensorModel& sensor) {
   for (auto klux = options.klux.begin(); klux != options.klux.end(); ++klux) {
     if (std::find(options.klux.begin(), klux, *klux) != klux) {
       throw InputError(fmt::format("--klux: {:g} is named twice", *klux));
@@ -271,11 +270,40 @@ void run_pool_command(PoolOptions options) {
   for (const std::string& design : options.designs) {
     (void)parse_pool_design(design);
   }
-  (void)make_scenes(options, sensor);  // what cannot be read is refused before anything is written
-  const std::filesystem::path folder(options.out);
-  create_output_folder(folder);
-  const std::uint64_t first_seed = options.seed;
-  std::map<double, Scores> lights;
+  (void)make_scenes(options, sensor);
+}
+
+/// Scores of all scenes and seeds at one light.
+Scores measure_light(const PoolOptions& options, const SensorModel& sensor, double klux, TableRule rule) {
+  std::optional<Scores> scores;
+  PoolOptions of_seed = options;
+  for (int i = 0; i < options.seeds; ++i) {
+    of_seed.seed = options.seed + static_cast<std::uint64_t>(i);
+    const SceneList list = make_scenes(of_seed, sensor);
+    Progress progress(fmt::format("{:g} klux, seed {}", klux, of_seed.seed), list.scenes.size() + 1);
+    const PoolStudy study(sensor, klux, options.designs, options.references, of_seed.seed, options.threads,
+                          rule);
+    progress.advance();
+    if (!scores) {
+      std::vector<std::string> names;
+      for (const StudyScene& scene : list.scenes) {
+        names.push_back(scene.name);
+      }
+      scores.emplace(std::move(names), study.estimators());
+    }
+    for (std::size_t s = 0; s < list.scenes.size(); ++s) {
+      const SceneTruth truth = scene_truth(list.scenes[s]);
+      const std::vector<SceneMeasurement> measured = study.measure(list.scenes[s]);
+      for (std::size_t e = 0; e < measured.size(); ++e) {
+        scores->add(s, e, score_scene(truth, measured[e]));
+      }
+      progress.advance();
+    }
+  }
+  return scores.value();
+}
+
+Table csv_of(const std::map<double, Scores>& lights) {
   std::vector<std::string> header = {"klux", "scene", "estimator", "pixels"};
   for (const Figure& figure : kFigures) {
     for (const char* part : {"", "_low", "_high"}) {
@@ -283,32 +311,31 @@ void run_pool_command(PoolOptions options) {
     }
   }
   Table csv(header, 3);
-  for (const double klux : options.klux) {
-    for (int i = 0; i < options.seeds; ++i) {
-      options.seed = first_seed + static_cast<std::uint64_t>(i);
-      const SceneList list = make_scenes(options, sensor);
-      Progress progress(fmt::format("{:g} klux, seed {}", klux, options.seed), list.scenes.size() + 1);
-      const PoolStudy study(sensor, klux, options.designs, options.references, options.seed, options.threads,
-                            rule);
-      progress.advance();
-      if (!lights.contains(klux)) {
-        std::vector<std::string> names;
-        for (const StudyScene& scene : list.scenes) {
-          names.push_back(scene.name);
+  for (const auto& [klux, scores] : lights) {
+    for (std::size_t s = 0; s < scores.scenes().size(); ++s) {
+      for (std::size_t e = 0; e < scores.estimators().size(); ++e) {
+        std::vector<std::string> row = {fmt::format("{:g}", klux), scores.scenes()[s], scores.estimators()[e],
+                                        fmt::format("{}", scores.pixels({s}, kFigures[0]))};
+        for (const Figure& figure : kFigures) {
+          if (scores.pixels({s}, figure) == 0) {
+            row.insert(row.end(), 3, "");
+            continue;
+          }
+          const Estimate share = scores.estimate({s}, e, figure);
+          for (const double value : {share.value, share.interval.low, share.interval.high}) {
+            row.push_back(fmt::format("{:.6f}", value));
+          }
         }
-        lights.emplace(klux, Scores(std::move(names), study.estimators()));
-      }
-      Scores& scores = lights.at(klux);
-      for (std::size_t s = 0; s < list.scenes.size(); ++s) {
-        const SceneTruth truth = scene_truth(list.scenes[s]);
-        const std::vector<SceneMeasurement> measured = study.measure(list.scenes[s]);
-        for (std::size_t e = 0; e < measured.size(); ++e) {
-          scores.add(s, e, score_scene(truth, measured[e]));
-        }
-        progress.advance();
+        csv.add(std::move(row));
       }
     }
   }
+  return csv;
+}
+
+/// The page. Prints the pooled table of each light.
+std::string pool_page(const PoolOptions& options, const SensorModel& sensor, TableRule rule,
+                      const std::map<double, Scores>& lights) {
   std::string report = fmt::format(
       "# poolPointer on scenes\n\n"
       "Percentage of pixels with a relative error above 3 % and above 10 %, sensor {}. Maps are read whole. "
@@ -318,8 +345,8 @@ void run_pool_command(PoolOptions options) {
       "same T. An edge pixel has a neighbour whose distance differs by more than 10 %. The distance of a "
       "single pixel differs from those of all its neighbours. No parameter was chosen on a scene whose name "
       "begins with \"held\".\n\n{}\n\nCommand: `{}`\n",
-      options.sensor, first_seed, options.seed, table_sentence(rule, sensor, first_seed),
-      options.command_line);
+      options.sensor, options.seed, options.seed + static_cast<std::uint64_t>(options.seeds) - 1,
+      table_sentence(rule, sensor, options.seed), options.command_line);
   if (options.references) {
     report += fmt::format(
         "\n## Goals\n\nAll scenes except the flats together; in a row with \"held scenes\" those alone. A "
@@ -339,25 +366,23 @@ void run_pool_command(PoolOptions options) {
                           scene_table(scores, kFigures[2], kFigures[3]).markdown());
     report += fmt::format("\n### Other pixels: above 3 % / 10 %\n\n{}",
                           scene_table(scores, kFigures[4], kFigures[5]).markdown());
-    for (std::size_t s = 0; s < scores.scenes().size(); ++s) {
-      for (std::size_t e = 0; e < scores.estimators().size(); ++e) {
-        std::vector<std::string> row = {fmt::format("{:g}", klux), scores.scenes()[s], scores.estimators()[e],
-                                        fmt::format("{}", scores.pixels({s}, kFigures[0]))};
-        for (const Figure& figure : kFigures) {
-          if (scores.pixels({s}, figure) == 0) {
-            row.insert(row.end(), 3, "");
-            continue;
-          }
-          const Estimate share = scores.estimate({s}, e, figure);
-          for (const double value : {share.value, share.interval.low, share.interval.high}) {
-            row.push_back(fmt::format("{:.6f}", value));
-          }
-        }
-        csv.add(std::move(row));
-      }
-    }
   }
-  write_file(folder / "pool.csv", csv.csv());
+  return report;
+}
+
+void run_pool_command(PoolOptions options) {
+  const TableRule rule = parse_table_rule(options.table);
+  const SensorModel sensor = find_sensor(options.sensor);
+  options.columns = sensor.columns;
+  check_options(options, sensor);
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+  std::map<double, Scores> lights;
+  for (const double klux : options.klux) {
+    lights.emplace(klux, measure_light(options, sensor, klux, rule));
+  }
+  const std::string report = pool_page(options, sensor, rule, lights);
+  write_file(folder / "pool.csv", csv_of(lights).csv());
   write_file(folder / "pool.md", report);
   fmt::print("\nTables are in {}\n", options.out);
 }

@@ -64,15 +64,8 @@ Axis parse_axis(const std::string& text) {
   return axis;
 }
 
-void run_search(const SearchOptions& options) {
-  const SensorModel sensor = find_sensor(options.sensor);
-  PoolNumbers best = parse_pool_design(options.design);
-  std::vector<Axis> axes;
-  for (const std::string& text : options.vary) {
-    axes.push_back(parse_axis(text));
-  }
-  const std::filesystem::path folder(options.out);
-  create_output_folder(folder);
+std::vector<TrainingFrame> training_frames(const SearchOptions& options, const SensorModel& sensor,
+                                           int engine_columns) {
   std::vector<TrainingFrame> frames;
   for (int i = 0; i < options.seeds; ++i) {
     SceneChoice choice;
@@ -80,24 +73,94 @@ void run_search(const SearchOptions& options) {
     choice.disparity_file = options.disparity_file;
     choice.seed = kTrainingSeed + static_cast<std::uint64_t>(i);
     for (TrainingFrame& frame : draw_training_frames(sensor, make_scenes(choice, sensor).scenes, options.klux,
-                                                     choice.seed, best.engine_columns, options.threads)) {
+                                                     choice.seed, engine_columns, options.threads)) {
       frames.push_back(std::move(frame));
     }
   }
-  std::vector<std::string> header = {"design",    "kept",          "objective",  "change, %",
-                                     "above 3 %", "S1: above 3 %", "above 10 %", "S1: edges above 3 %"};
-  const std::set<double> lights(options.klux.begin(), options.klux.end());
-  for (const double klux : lights) {
-    header.push_back(fmt::format("objective at {:g} klux", klux));
+  return frames;
+}
+
+/// The best design so far, its score, and a table of all designs that were tried.
+class Search {
+ public:
+  Search(const SensorModel& sensor, const SearchOptions& options)
+      : sensor_(sensor),
+        threads_(options.threads),
+        best_(parse_pool_design(options.design)),
+        table_(header(options.klux), 2) {
+    for (const std::string& text : options.vary) {
+      axes_.push_back(parse_axis(text));
+    }
   }
-  Table table(header, 2);
-  DesignScore score = score_design(sensor, frames, best, options.threads);
-  const auto report = [&](const std::string& name, const DesignScore& tried, bool kept) {
+
+  /// Scores the first design, and changes one number after the other, at most `rounds` times each.
+  void run(std::vector<TrainingFrame> frames, const SearchOptions& options) {
+    frames_ = std::move(frames);
+    score_ = score_design(sensor_, frames_, best_, threads_);
+    report("start " + options.design, score_, true);
+    for (int round = 0; round < options.rounds; ++round) {
+      bool changed = false;
+      for (const Axis& axis : axes_) {
+        changed = try_values(axis) || changed;
+      }
+      if (!changed) {
+        break;
+      }
+    }
+  }
+
+  [[nodiscard]] const PoolNumbers& best() const { return best_; }
+  [[nodiscard]] const Table& table() const { return table_; }
+
+ private:
+  static std::vector<std::string> header(const std::vector<double>& klux) {
+    std::vector<std::string> names = {"design",    "kept",          "objective",  "change, %",
+                                      "above 3 %", "S1: above 3 %", "above 10 %", "S1: edges above 3 %"};
+    for (const double light : std::set<double>(klux.begin(), klux.end())) {
+      names.push_back(fmt::format("objective at {:g} klux", light));
+    }
+    return names;
+  }
+
+  /// Tries every value of an axis with the best design, and keeps the best of them. Returns true if the best
+  /// design changed.
+  bool try_values(const Axis& axis) {
+    const int start = pool_design_number(best_, axis.name);
+    const std::vector<int> values =
+        axis.values.empty() ? std::vector<int>{start - 1, start + 1} : axis.values;
+    PoolNumbers leader = best_;
+    DesignScore leading = score_;
+    for (const int value : values) {
+      if (value == start) {
+        continue;
+      }
+      const PoolNumbers design = with_pool_design_number(best_, axis.name, value);
+      try {
+        design.validate();
+      } catch (const InputError&) {
+        continue;  // not every neighbour of a legal number is legal
+      }
+      const DesignScore tried = score_design(sensor_, frames_, design, threads_);
+      const bool better = tried.objective() < leading.objective();
+      report(fmt::format("{}={}", axis.name, value), tried, better);
+      if (better) {
+        leader = design;
+        leading = tried;
+      }
+    }
+    const bool changed = !(leader == best_);
+    best_ = leader;
+    score_ = leading;
+    return changed;
+  }
+
+  /// Prints a design's row at once, for a search takes hours.
+  void report(const std::string& name, const DesignScore& tried, bool kept) {
     std::vector<std::string> row = {
         name,
         kept ? "yes" : "",
         fmt::format("{:.4f}", tried.objective()),
-        fmt::format("{:+.1f}", 100.0 * (tried.objective() / score.objective() - 1.0)),
+        fmt::format("{:+.1f}", 100.0 * (tried.objective() / score_.objective() - 1.0)),
         fmt::format("{:.3f}", tried.above_3_percent),
         fmt::format("{:.3f}", tried.smooth_above_3_percent),
         fmt::format("{:.3f}", tried.above_10_percent),
@@ -107,44 +170,26 @@ void run_search(const SearchOptions& options) {
     }
     fmt::print("{}\n", fmt::join(row, " | "));
     std::fflush(stdout);
-    table.add(std::move(row));
-  };
-  report("start " + options.design, score, true);
-  for (int round = 0; round < options.rounds; ++round) {
-    bool changed = false;
-    for (const Axis& axis : axes) {
-      const int start = pool_design_number(best, axis.name);
-      const std::vector<int> values =
-          axis.values.empty() ? std::vector<int>{start - 1, start + 1} : axis.values;
-      PoolNumbers leader = best;
-      DesignScore leading = score;
-      for (const int value : values) {
-        if (value == start) {
-          continue;
-        }
-        const PoolNumbers design = with_pool_design_number(best, axis.name, value);
-        try {
-          design.validate();
-        } catch (const InputError&) {
-          continue;  // not every neighbour of a legal number is legal
-        }
-        const DesignScore tried = score_design(sensor, frames, design, options.threads);
-        const bool better = tried.objective() < leading.objective();
-        report(fmt::format("{}={}", axis.name, value), tried, better);
-        if (better) {
-          leader = design;
-          leading = tried;
-        }
-      }
-      changed = changed || !(leader == best);
-      best = leader;
-      score = leading;
-    }
-    if (!changed) {
-      break;
-    }
+    table_.add(std::move(row));
   }
-  write_file(folder / "pool_search.csv", table.csv());
+
+  const SensorModel& sensor_;
+  int threads_;
+  PoolNumbers best_;
+  DesignScore score_;
+  Table table_;
+  std::vector<Axis> axes_;
+  std::vector<TrainingFrame> frames_;
+};
+
+void run_search(const SearchOptions& options) {
+  const SensorModel sensor = find_sensor(options.sensor);
+  Search search(sensor, options);
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+  const int engine_columns = search.best().engine_columns;
+  search.run(training_frames(options, sensor, engine_columns), options);
+  write_file(folder / "pool_search.csv", search.table().csv());
   write_file(
       folder / "pool_search.md",
       fmt::format(
@@ -159,7 +204,7 @@ void run_search(const SearchOptions& options) {
           options.disparity_file.empty()
               ? ""
               : ", and " + std::filesystem::path(options.disparity_file).filename().string(),
-          best.engine_columns, options.command_line, table.markdown()));
+          search.best().engine_columns, options.command_line, search.table().markdown()));
   fmt::print("Tables are in {}\n", options.out);
 }
 

@@ -122,7 +122,7 @@ class Measuring {
     for (const int guard : kGuards) {
       settings.readouts = defaults_of(std::array{Readout::kHisPointer}, settings.sensor.slots);
       settings.readouts.front().guard = guard;
-      result_.guards.push_back({fmt::format("GUARD {}", guard), run_accuracy_study(settings)});
+      result_.guards.push_back({guard_title(guard), run_accuracy_study(settings)});
     }
   }
 
@@ -312,8 +312,9 @@ std::vector<JudgedStatement> judged_statements(const Reproduction& r) {
                  judge_fine_peak(r.fine, 195.0)});
   all.push_back(
       {"Fig. 3.11",
-       "14 klux, 1 m: SiFH's narrower filter (GUARD 0) cuts the pulse, hisPointer's (GUARD 46) keeps "
-       "it, and the pointer is the better for it",
+       fmt::format("14 klux, 1 m: SiFH's narrower filter ({}) cuts the pulse, hisPointer's ({}) keeps "
+                   "it, and the pointer is the better for it",
+                   guard_title(kGuards.front()), guard_title(kGuards.back())),
        "middle 95 % of frames of the share kept apart, and intervals of the rmse after the look-up "
        "table apart",
        judge_filters(r.filters.front(), r.filters.back(), guard_point(r, 0, 1.0).rmse_m,

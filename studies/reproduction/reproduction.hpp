@@ -44,8 +44,8 @@ struct Reproduction {
   PileUp pile_up_far;         ///< 0.5 m
   SideShares sides;
   FineHistogram fine;
-  std::vector<FilteredCounts> filters;         ///< 14 klux, 1 m; by GUARD, the last is the thesis's
-  std::vector<Changed<AccuracyStudy>> guards;  ///< hisPointer with each GUARD, 14 klux
+  std::vector<FilteredCounts> filters;         ///< 14 klux, 1 m; by side band, the last is the thesis's
+  std::vector<Changed<AccuracyStudy>> guards;  ///< hisPointer with each side band, 14 klux
 
   /// 50 klux, 3 m, without the table; the first has no change.
   std::vector<Changed<AccuracyStudy>> methods;

@@ -90,8 +90,8 @@ Reproduction figures() {
     filter.guard = guard;
     filter.kept = guard == 0 ? Spread{0.3, 0.4, 0.5} : Spread{0.99, 1.0, 1.0};
     r.filters.push_back(filter);
-    r.guards.push_back({guard == 0 ? "GUARD 0" : "GUARD 46",
-                        study({Readout::kHisPointer}, 14.0, {0.5, 1.0}, guard == 0 ? 0.05 : 0.02)});
+    r.guards.push_back(
+        {guard_title(guard), study({Readout::kHisPointer}, 14.0, {0.5, 1.0}, guard == 0 ? 0.05 : 0.02)});
   }
   const std::vector<std::string> methods = {"none",        "binning",          "binning, eight slots", "gate",
                                             "narrow gate", "coincidence 1 ns", "coincidence 2 ns"};

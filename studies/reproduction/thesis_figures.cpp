@@ -182,6 +182,8 @@ FineHistogram fine_histogram(const FigureScene& scene) {
   return result;
 }
 
+std::string guard_title(int guard) { return fmt::format("GUARD {}", guard); }
+
 FilteredCounts filtered_counts(const FigureScene& scene, int guard) {
   const SensorModel& sensor = scene.sensor;
   const ReadoutParameters pointer = ReadoutParameters::defaults(Readout::kHisPointer, sensor.np);
@@ -273,14 +275,13 @@ Judgement judge_filters(const FilteredCounts& narrow, const FilteredCounts& wide
   const Verdict verdict = !cuts || (!worse && !open) ? Verdict::kDisagrees
                           : worse                    ? Verdict::kAgrees
                                                      : Verdict::kOpen;
-  return {
-      verdict,
-      fmt::format("kept of the pulse in 95 % of frames: {:.0f} to {:.0f} % with GUARD {}, {:.0f} to {:.0f} % "
-                  "with {}; rmse {:.1f} [{:.1f}, {:.1f}] and {:.1f} [{:.1f}, {:.1f}] mm",
-                  narrow.kept.low * 100.0, narrow.kept.high * 100.0, narrow.guard, wide.kept.low * 100.0,
-                  wide.kept.high * 100.0, wide.guard, narrow_rmse.value * 1e3, narrow_rmse.interval.low * 1e3,
-                  narrow_rmse.interval.high * 1e3, wide_rmse.value * 1e3, wide_rmse.interval.low * 1e3,
-                  wide_rmse.interval.high * 1e3)};
+  return {verdict,
+          fmt::format("kept of the pulse in 95 % of frames: {:.0f} to {:.0f} % with {}, {:.0f} to {:.0f} % "
+                      "with {}; rmse {:.1f} [{:.1f}, {:.1f}] and {:.1f} [{:.1f}, {:.1f}] mm",
+                      narrow.kept.low * 100.0, narrow.kept.high * 100.0, guard_title(narrow.guard),
+                      wide.kept.low * 100.0, wide.kept.high * 100.0, wide.guard, narrow_rmse.value * 1e3,
+                      narrow_rmse.interval.low * 1e3, narrow_rmse.interval.high * 1e3, wide_rmse.value * 1e3,
+                      wide_rmse.interval.low * 1e3, wide_rmse.interval.high * 1e3)};
 }
 
 Judgement judge_far_peak(const HistogramPeaks& far, const HistogramPeaks& near) {

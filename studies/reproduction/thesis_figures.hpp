@@ -71,12 +71,14 @@ struct FineHistogram {
 };
 FineHistogram fine_histogram(const FigureScene& scene);
 
-/// Timestamps of the second half that pass hisPointer's filter with this GUARD (Fig. 3.11).
+/// Timestamps of the second half that pass hisPointer's filter (Fig. 3.11).
 struct FilteredCounts {
-  int guard = 0;
+  int guard = 0;                  ///< side band of the filter, bins
   Spread kept;                    ///< share of the timestamps within 46 bins of the pulse's centre that pass
   std::vector<double> remaining;  ///< mean counts per frame and bin
 };
+/// A side band for tables and pictures: its parameter and its bins.
+std::string guard_title(int guard);
 FilteredCounts filtered_counts(const FigureScene& scene, int guard);
 
 /// Full width at half maximum of a curve, in bins: distance of the outermost crossings of half the maximum,

@@ -191,18 +191,7 @@ std::vector<ReadoutParameters> parse_readouts(const ScenesOptions& options, cons
   return readouts;
 }
 
-void run_scenes_command(const ScenesOptions& options) {
-  const TableRule rule = parse_table_rule(options.table);
-  std::vector<SensorModel> sensors;
-  std::vector<std::vector<ReadoutParameters>> readouts_of;  // each sensor
-  std::vector<SceneList> lists;                             // of each sensor
-  for (const std::string& name : options.sensors) {
-    sensors.push_back(find_sensor(name));
-    readouts_of.push_back(parse_readouts(options, sensors.back()));
-    lists.push_back(make_scenes(options, sensors.back()));
-  }
-  const std::filesystem::path folder(options.out);
-  create_output_folder(folder);
+std::vector<std::string> csv_header() {
   std::vector<std::string> header = {"sensor",
                                      "klux",
                                      "scene",
@@ -223,8 +212,155 @@ void run_scenes_command(const ScenesOptions& options) {
   for (const double dropped : kDropped) {
     header.push_back(fmt::format("outliers_removed_at_{:g}_percent", dropped * 100.0));
   }
-  Table csv(header);
-  std::string report = fmt::format(
+  return header;
+}
+
+/// Row of the CSV file. `bounds`: Cramer-Rao bounds of the scene's pixels, or empty.
+std::vector<std::string> csv_row(const std::string& sensor, double klux, const std::string& scene,
+                                 const std::string& estimator, const EstimatorResult& measured,
+                                 const std::vector<double>& bounds) {
+  const SceneScore& score = measured.score;
+  std::vector<std::string> row = {sensor,
+                                  fmt::format("{:g}", klux),
+                                  scene,
+                                  estimator,
+                                  fmt::format("{}", score.all.pixels),
+                                  fmt::format("{:.6f}", score.all.above_3_percent),
+                                  fmt::format("{:.6f}", score.all.above_10_percent),
+                                  fmt::format("{:.6f}", score.all.rmse),
+                                  fmt::format("{}", score.edges.pixels),
+                                  fmt::format("{:.6f}", score.edges.above_3_percent),
+                                  fmt::format("{:.6f}", score.edges.above_10_percent),
+                                  fmt::format("{:.6f}", score.rest.above_3_percent),
+                                  fmt::format("{:.6f}", score.rest.above_10_percent),
+                                  fmt::format("{}", score.singles.pixels),
+                                  fmt::format("{:.6f}", score.singles.above_10_percent),
+                                  bounds.empty() ? "" : fmt::format("{:.6f}", root_mean_square(bounds)),
+                                  bounds.empty() ? "" : fmt::format("{:.4f}", measured.error_over_bound)};
+  for (const double removed : score.removed) {
+    row.push_back(std::isnan(removed) ? "" : fmt::format("{:.4f}", removed));
+  }
+  return row;
+}
+
+/// What all lights of a run share.
+struct ScenesRun {
+  const ScenesOptions& options;
+  TableRule rule;
+  std::filesystem::path folder;
+  Table csv;
+  std::string report;
+};
+
+/// Measures all scenes at one light: error maps, rows of the CSV file, and the results by scene.
+std::vector<SceneResult> measure_scenes(ScenesRun& run, const SceneStudy& study, const SensorModel& sensor,
+                                        double klux, const std::vector<StudyScene>& scenes,
+                                        Progress& progress) {
+  const std::vector<std::string>& estimators = study.estimators();
+  std::vector<SceneResult> results;
+  for (const StudyScene& scene : scenes) {
+    const SceneTruth truth = scene_truth(scene);
+    const std::vector<SceneMeasurement> measurements = study.measure(scene);
+    const std::vector<double> bounds =
+        shows_pooled_gain(scene.name) ? study.relative_bounds(scene) : std::vector<double>();
+    SceneResult result{scene.name, {}};
+    for (std::size_t e = 0; e < estimators.size(); ++e) {
+      result.estimators.push_back(
+          {score_scene(truth, measurements[e]), median_error_over_bound(truth, bounds, measurements[e])});
+      run.csv.add(csv_row(sensor.name, klux, scene.name, estimators[e], result.estimators.back(), bounds));
+    }
+    if (!is_flat(scene.name)) {
+      write_error_maps(
+          run.folder / fmt::format("{}_{:g}klux_{}.png", file_name(scene.name), klux, sensor.name),
+          fmt::format("Error in m: {}, {:g} klux, sensor {}", scene.name, klux, sensor.name), truth,
+          estimators, measurements, run.options.command_line);
+    }
+    results.push_back(std::move(result));
+    progress.advance();
+  }
+  return results;
+}
+
+/// The sections of one light. Prints the first table.
+std::string light_sections(const ScenesRun& run, const std::vector<SceneResult>& results,
+                           const std::vector<std::string>& estimators, const SensorModel& sensor,
+                           double klux) {
+  const auto part = [&](const std::string& title,
+                        const std::function<std::string(const EstimatorResult&)>& cell) {
+    return fmt::format("\n### {}\n\n{}", title, matrix(results, estimators, cell).markdown());
+  };
+  const std::string overview =
+      part("All pixels: above 3 % / 10 %", [](const EstimatorResult& r) { return share_pair(r.score.all); });
+  fmt::print("\n## {:g} klux, sensor {}\n{}", klux, sensor.name, overview);
+  std::string report = fmt::format("\n## {:g} klux, sensor {}\n\n{}\n{}", klux, sensor.name,
+                                   table_sentence(run.rule, sensor, run.options.seed), overview);
+  report += part("Pixels at depth edges", [](const EstimatorResult& r) { return share_pair(r.score.edges); });
+  report += part("Other pixels", [](const EstimatorResult& r) { return share_pair(r.score.rest); });
+  report += part("Pixels unlike all their neighbours: above 10 %", [](const EstimatorResult& r) {
+    return r.score.singles.pixels == 0 ? kNoFigure
+                                       : fmt::format("{:.2f}", r.score.singles.above_10_percent * 100.0);
+  });
+  report += part("Relative rmse, %",
+                 [](const EstimatorResult& r) { return fmt::format("{:.2f}", r.score.all.rmse * 100.0); });
+  report += part("Median error over the single pixel's bound", [](const EstimatorResult& r) {
+    return std::isnan(r.error_over_bound) ? kNoFigure : fmt::format("{:.2f}", r.error_over_bound);
+  });
+  report += part("Outliers (above 10 %) removed by dropping the 5 % of lowest confidence, %",
+                 [](const EstimatorResult& r) {
+                   return std::isnan(r.score.removed[2]) ? kNoFigure
+                                                         : fmt::format("{:.0f}", r.score.removed[2] * 100.0);
+                 });
+  return report + gain_by_pooling(results, estimators);
+}
+
+void write_confidence_curves(const std::filesystem::path& path, const std::vector<SceneResult>& results,
+                             const std::vector<std::string>& estimators, const std::string& sensor,
+                             double klux) {
+  std::vector<PlotSeries> curves;
+  for (std::size_t e = 0; e < estimators.size(); ++e) {
+    curves.push_back(confidence_curve(results, e, estimators[e]));
+  }
+  write_plot(path, curves,
+             {.title = fmt::format("Outliers removed in % by dropping the pixels of lowest confidence: "
+                                   "all scenes, {:g} klux, sensor {}",
+                                   klux, sensor),
+              .x_label = "pixels dropped, %",
+              .y_label = "outliers removed, %"});
+}
+
+/// A sensor of the run, with its read-outs and scenes.
+struct SensorScenes {
+  SensorModel sensor;
+  std::vector<ReadoutParameters> readouts;
+  SceneList list;
+};
+
+void run_light(ScenesRun& run, const SensorScenes& of, double klux) {
+  const std::vector<StudyScene>& scenes = of.list.scenes;
+  Progress progress(fmt::format("{} {:g} klux", of.sensor.name, klux), scenes.size() + 1);
+  const SceneStudy study(of.sensor, klux, of.readouts, run.options.seed, run.options.threads, run.rule);
+  progress.advance();
+  const std::vector<SceneResult> results = measure_scenes(run, study, of.sensor, klux, scenes, progress);
+  run.report += light_sections(run, results, study.estimators(), of.sensor, klux);
+  write_confidence_curves(run.folder / fmt::format("confidence_{:g}klux_{}.svg", klux, of.sensor.name),
+                          results, study.estimators(), of.sensor.name, klux);
+}
+
+void run_scenes_command(const ScenesOptions& options) {
+  ScenesRun run{.options = options,
+                .rule = parse_table_rule(options.table),
+                .folder = options.out,
+                .csv = Table(csv_header()),
+                .report = {}};
+  std::vector<SensorScenes> sensors;
+  for (const std::string& name : options.sensors) {
+    SensorModel sensor = find_sensor(name);
+    std::vector<ReadoutParameters> readouts = parse_readouts(options, sensor);
+    SceneList list = make_scenes(options, sensor);
+    sensors.push_back({std::move(sensor), std::move(readouts), std::move(list)});
+  }
+  create_output_folder(run.folder);
+  run.report = fmt::format(
       "# Read-outs on scenes\n\nPer cent of pixels with a relative error above 3 % / above 10 %. Seed "
       "{}, at most {} columns of a scene. \"hisPointer pairs\" finds its coarse peak over pairs of "
       "adjacent bins. The matched filter uses the full histogram and the true signal and background. "
@@ -233,107 +369,17 @@ void run_scenes_command(const ScenesOptions& options) {
       "variable (0.674). Scenes \"held\": no parameter of poolPointer was chosen on them.\n\nCommand: "
       "`{}`\n",
       options.seed, options.columns, options.command_line);
-  for (const std::string& note : lists.front().notes) {
-    report += fmt::format("\n{}\n", note);
+  for (const std::string& note : sensors.front().list.notes) {
+    run.report += fmt::format("\n{}\n", note);
     fmt::print("{}\n", note);
   }
-  for (std::size_t p = 0; p < sensors.size(); ++p) {
-    const SensorModel& sensor = sensors[p];
-    const std::string& sensor_name = sensor.name;
-    const std::vector<ReadoutParameters>& readouts = readouts_of[p];
-    const std::vector<StudyScene>& scenes = lists[p].scenes;
+  for (const SensorScenes& sensor : sensors) {
     for (const double klux : options.klux) {
-      Progress progress(fmt::format("{} {:g} klux", sensor_name, klux), scenes.size() + 1);
-      const SceneStudy study(sensor, klux, readouts, options.seed, options.threads, rule);
-      progress.advance();
-      const std::vector<std::string>& estimators = study.estimators();
-      std::vector<SceneResult> results;
-      for (const StudyScene& scene : scenes) {
-        const SceneTruth truth = scene_truth(scene);
-        const std::vector<SceneMeasurement> measurements = study.measure(scene);
-        const std::vector<double> bounds =
-            shows_pooled_gain(scene.name) ? study.relative_bounds(scene) : std::vector<double>();
-        SceneResult result{scene.name, {}};
-        for (std::size_t e = 0; e < estimators.size(); ++e) {
-          result.estimators.push_back(
-              {score_scene(truth, measurements[e]), median_error_over_bound(truth, bounds, measurements[e])});
-          const SceneScore& score = result.estimators.back().score;
-          std::vector<std::string> row = {
-              sensor_name,
-              fmt::format("{:g}", klux),
-              scene.name,
-              estimators[e],
-              fmt::format("{}", score.all.pixels),
-              fmt::format("{:.6f}", score.all.above_3_percent),
-              fmt::format("{:.6f}", score.all.above_10_percent),
-              fmt::format("{:.6f}", score.all.rmse),
-              fmt::format("{}", score.edges.pixels),
-              fmt::format("{:.6f}", score.edges.above_3_percent),
-              fmt::format("{:.6f}", score.edges.above_10_percent),
-              fmt::format("{:.6f}", score.rest.above_3_percent),
-              fmt::format("{:.6f}", score.rest.above_10_percent),
-              fmt::format("{}", score.singles.pixels),
-              fmt::format("{:.6f}", score.singles.above_10_percent),
-              bounds.empty() ? "" : fmt::format("{:.6f}", root_mean_square(bounds)),
-              bounds.empty() ? "" : fmt::format("{:.4f}", result.estimators.back().error_over_bound)};
-          for (const double removed : score.removed) {
-            row.push_back(std::isnan(removed) ? "" : fmt::format("{:.4f}", removed));
-          }
-          csv.add(std::move(row));
-        }
-        if (!is_flat(scene.name)) {
-          const std::string title =
-              fmt::format("Error in m: {}, {:g} klux, sensor {}", scene.name, klux, sensor_name);
-          write_error_maps(
-              folder / fmt::format("{}_{:g}klux_{}.png", file_name(scene.name), klux, sensor_name), title,
-              truth, estimators, measurements, options.command_line);
-        }
-        results.push_back(std::move(result));
-        progress.advance();
-      }
-      const auto part = [&](const std::string& title,
-                            const std::function<std::string(const EstimatorResult&)>& cell) {
-        return fmt::format("\n### {}\n\n{}", title, matrix(results, estimators, cell).markdown());
-      };
-      const std::string overview = part("All pixels: above 3 % / 10 %",
-                                        [](const EstimatorResult& r) { return share_pair(r.score.all); });
-      fmt::print("\n## {:g} klux, sensor {}\n{}", klux, sensor_name, overview);
-      report += fmt::format("\n## {:g} klux, sensor {}\n\n{}\n{}", klux, sensor_name,
-                            table_sentence(rule, sensor, options.seed), overview);
-      report +=
-          part("Pixels at depth edges", [](const EstimatorResult& r) { return share_pair(r.score.edges); });
-      report += part("Other pixels", [](const EstimatorResult& r) { return share_pair(r.score.rest); });
-      report += part("Pixels unlike all their neighbours: above 10 %", [](const EstimatorResult& r) {
-        return r.score.singles.pixels == 0 ? kNoFigure
-                                           : fmt::format("{:.2f}", r.score.singles.above_10_percent * 100.0);
-      });
-      report += part("Relative rmse, %", [](const EstimatorResult& r) {
-        return fmt::format("{:.2f}", r.score.all.rmse * 100.0);
-      });
-      report += part("Median error over the single pixel's bound", [](const EstimatorResult& r) {
-        return std::isnan(r.error_over_bound) ? kNoFigure : fmt::format("{:.2f}", r.error_over_bound);
-      });
-      report += part("Outliers (above 10 %) removed by dropping the 5 % of lowest confidence, %",
-                     [](const EstimatorResult& r) {
-                       return std::isnan(r.score.removed[2])
-                                  ? kNoFigure
-                                  : fmt::format("{:.0f}", r.score.removed[2] * 100.0);
-                     });
-      report += gain_by_pooling(results, estimators);
-      std::vector<PlotSeries> curves;
-      for (std::size_t e = 0; e < estimators.size(); ++e) {
-        curves.push_back(confidence_curve(results, e, estimators[e]));
-      }
-      write_plot(folder / fmt::format("confidence_{:g}klux_{}.svg", klux, sensor_name), curves,
-                 {.title = fmt::format("Outliers removed in % by dropping the pixels of lowest confidence: "
-                                       "all scenes, {:g} klux, sensor {}",
-                                       klux, sensor_name),
-                  .x_label = "pixels dropped, %",
-                  .y_label = "outliers removed, %"});
+      run_light(run, sensor, klux);
     }
   }
-  write_file(folder / "scenes.csv", csv.csv());
-  write_file(folder / "scenes.md", report);
+  write_file(run.folder / "scenes.csv", run.csv.csv());
+  write_file(run.folder / "scenes.md", run.report);
   fmt::print("\nSeed {}. Tables, error maps and confidence curves are in {}\n", options.seed, options.out);
 }
 

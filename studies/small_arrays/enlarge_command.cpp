@@ -87,9 +87,9 @@ void write_picture(const std::filesystem::path& file, const std::vector<Labelled
                      .largest_error = kLargestError});
 }
 
-void run_enlarge_command(EnlargeOptions options) {
-  const SensorModel sensor = find_sensor(options.sensor);
-  options.columns = sensor.columns;
+/// Settings of the study but the light and the pictured map. Throws InputError for arrays or read-outs that
+/// the picture lacks.
+EnlargeSettings checked_settings(const EnlargeOptions& options, const SensorModel& sensor) {
   EnlargeSettings settings;
   settings.sensor = sensor;
   settings.readouts = options.readouts;
@@ -111,25 +111,26 @@ void run_enlarge_command(EnlargeOptions options) {
     throw InputError(
         "--picture-array: the picture needs this array among --array and poolpointer among --readout");
   }
-  const std::vector<EnlargeScene> scenes = all_scenes(options, sensor);
-  settings.pictured_scene = options.pictured_scene.empty() ? scenes.back().name : options.pictured_scene;
-  if (std::ranges::find(scenes, settings.pictured_scene, &EnlargeScene::name) == scenes.end()) {
-    throw InputError(fmt::format("--picture-scene: no map has the name '{}'", settings.pictured_scene));
-  }
-  const std::filesystem::path folder(options.out);
-  create_output_folder(folder);
+  return settings;
+}
 
-  std::vector<EnlargeLight> lights;
-  for (const double klux : options.klux) {
-    settings.klux = klux;
-    lights.push_back({klux, run_enlarge_study(settings, scenes)});
+/// Name of the map that is drawn. Throws InputError for an unknown one.
+std::string pictured_scene(const EnlargeOptions& options, const std::vector<EnlargeScene>& scenes) {
+  std::string name = options.pictured_scene.empty() ? scenes.back().name : options.pictured_scene;
+  if (std::ranges::find(scenes, name, &EnlargeScene::name) == scenes.end()) {
+    throw InputError(fmt::format("--picture-scene: no map has the name '{}'", name));
   }
+  return name;
+}
+
+/// The page's sections before the picture.
+std::string enlarge_text(const std::string& answer, const EnlargeOptions& options, const SensorModel& sensor,
+                         const std::vector<EnlargeScene>& scenes) {
   std::vector<std::string> names;
   for (const EnlargeScene& scene : scenes) {
     names.push_back(scene.name);
   }
-  const std::string answer = enlarge_answer(lights);
-  std::string report = fmt::format(
+  return fmt::format(
       "# Small arrays, enlarged\n\n"
       "The thesis's last question: fewer pixels that share the laser have more signal each; can their maps "
       "be enlarged to those of the large array?\n\n"
@@ -161,15 +162,32 @@ void run_enlarge_command(EnlargeOptions options) {
       answer, sensor.columns, sensor.rows, options.sensor, options.seed, kNoError, fmt::join(names, ", "),
       options.nearest_m, kDarkestPhotographed, options.seed,
       options.seed + static_cast<std::uint64_t>(options.seeds) - 1);
+}
+
+void run_enlarge_command(EnlargeOptions options) {
+  const SensorModel sensor = find_sensor(options.sensor);
+  options.columns = sensor.columns;
+  EnlargeSettings settings = checked_settings(options, sensor);
+  const std::vector<EnlargeScene> scenes = all_scenes(options, sensor);
+  settings.pictured_scene = pictured_scene(options, scenes);
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+
+  std::vector<EnlargeLight> lights;
+  for (const double klux : options.klux) {
+    settings.klux = klux;
+    lights.push_back({klux, run_enlarge_study(settings, scenes)});
+  }
+  const std::string answer = enlarge_answer(lights);
   const std::string picture = fmt::format("enlarge_{:g}klux.png", lights.back().klux);
   const std::string title =
       fmt::format("{}, {:g} klux, sensor {}, poolPointer: large array, and a small one enlarged",
                   settings.pictured_scene, lights.back().klux, options.sensor);
-  report += fmt::format("![{}]({})\n\n{}Command: `{}`\n", title, picture, enlarge_tables(lights),
-                        options.command_line);
   write_picture(folder / picture, lights.back().study.maps, sensor, title, options.command_line);
   write_file(folder / "enlarge.csv", enlarge_csv(lights));
-  write_file(folder / "enlarge.md", report);
+  write_file(folder / "enlarge.md",
+             fmt::format("{}![{}]({})\n\n{}Command: `{}`\n", enlarge_text(answer, options, sensor, scenes),
+                         title, picture, enlarge_tables(lights), options.command_line));
   fmt::print("{}\nThe report is {}\n", answer, (folder / "enlarge.md").string());
 }
 

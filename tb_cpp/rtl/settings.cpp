@@ -5,104 +5,78 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+
+#include "dtof/core/parameter_entry.hpp"
+#include "rtl/rtl_parameters.hpp"
 
 namespace dtof {
 namespace {
 
-using Get = int (*)(const RtlConfiguration&);
-using Set = void (*)(RtlConfiguration&, int);
-
-constexpr unsigned kInArray = 1;
-constexpr unsigned kInPoolArray = 2;
-constexpr unsigned kInSubsystem = 4;
-constexpr unsigned kInAll = kInArray | kInPoolArray | kInSubsystem;
-constexpr unsigned kOfArray = kInArray | kInSubsystem;
-constexpr unsigned kOfPool = kInPoolArray | kInSubsystem;
-
-struct Parameter {
+/// A parameter of an array that changes no result of a model.
+struct OwnParameter {
   std::string_view name;
-  unsigned tops;
-  Get get;
-  Set set;
+  int (*get)(const RtlConfiguration&);
+  void (*set)(RtlConfiguration&, int);
 };
 
-template <int ReadoutParameters::*Member>
-constexpr Get kGet = [](const RtlConfiguration& c) { return c.parameters.*Member; };
-template <int ReadoutParameters::*Member>
-constexpr Set kSet = [](RtlConfiguration& c, int value) { c.parameters.*Member = value; };
-template <int PoolPointerParameters::*Member>
-constexpr Get kGetPool = [](const RtlConfiguration& c) { return c.parameters.pool.*Member; };
-template <int PoolPointerParameters::*Member>
-constexpr Set kSetPool = [](RtlConfiguration& c, int value) { c.parameters.pool.*Member = value; };
-template <bool PoolPointerParameters::*Member>
-constexpr Get kGetPoolFlag = [](const RtlConfiguration& c) { return c.parameters.pool.*Member ? 1 : 0; };
-template <bool PoolPointerParameters::*Member>
-constexpr Set kSetPoolFlag = [](RtlConfiguration& c, int value) { c.parameters.pool.*Member = value != 0; };
-template <bool RtlConfiguration::*Member>
-constexpr Get kGetFlag = [](const RtlConfiguration& c) { return c.*Member ? 1 : 0; };
-template <bool RtlConfiguration::*Member>
-constexpr Set kSetFlag = [](RtlConfiguration& c, int value) { c.*Member = value != 0; };
-template <int RtlConfiguration::*Member>
-constexpr Get kGetSize = [](const RtlConfiguration& c) { return c.*Member; };
-template <int RtlConfiguration::*Member>
-constexpr Set kSetSize = [](RtlConfiguration& c, int value) { c.*Member = value; };
+template <auto Member>
+constexpr OwnParameter own(std::string_view name) {
+  return {name, [](const RtlConfiguration& from) { return static_cast<int>(from.*Member); },
+          [](RtlConfiguration& to, int value) {
+            to.*Member = static_cast<std::remove_reference_t<decltype(to.*Member)>>(value);
+          }};
+}
 
 void ignore(RtlConfiguration& /*configuration*/, int /*value*/) {}
 
-using R = ReadoutParameters;
-using P = PoolPointerParameters;
 using C = RtlConfiguration;
 
 constexpr int kAcquisitionBits = 16;  // of tb_cpp/rtl/*_testbench.sv
 
-constexpr std::array<Parameter, 30> kParameters = {{
-    {"NP", kInAll, kGet<&R::np>, kSet<&R::np>},
-    {"NB", kOfArray, kGet<&R::nb>, kSet<&R::nb>},
-    {"PIXELS_PER_SRAM", kInAll, kGetSize<&C::pixels_per_sram>, kSetSize<&C::pixels_per_sram>},
-    {"SRAM_NUM", kInAll, kGetSize<&C::sram_num>, kSetSize<&C::sram_num>},
-    {"SLOTS", kInAll, kGet<&R::slots>, kSet<&R::slots>},
-    {"COUNT_WIDTH", kInAll, kGet<&R::count_width>, kSet<&R::count_width>},
-    {"POINTER_STEP", kOfArray, kGet<&R::pointer_step>, kSet<&R::pointer_step>},
-    // A pool read-out's follows from NP.
-    {"FRACTION_BITS", kOfArray,
-     [](const C& c) { return is_pool_readout(c.parameters.readout) ? 0 : c.parameters.fraction_bits; },
-     kSet<&R::fraction_bits>},
-    {"CONFIDENCE_WIDTH", kOfArray, kGet<&R::confidence_width>, kSet<&R::confidence_width>},
-    {"GUARD", kOfArray, kGet<&R::guard>, kSet<&R::guard>},
-    {"WINDOW_CENTRED", kOfArray, [](const C& c) { return c.parameters.window_centred ? 1 : 0; },
-     [](C& c, int value) { c.parameters.window_centred = value != 0; }},
-    {"POINTER_PORTS", kOfArray, kGetSize<&C::pointer_ports>, kSetSize<&C::pointer_ports>},
-    {"SIGNALLED_CLEAR", kOfArray, kGetFlag<&C::signalled_clear>, kSetFlag<&C::signalled_clear>},
-    {"TIME_GATE", kInAll, [](const C& c) { return c.parameters.time_gate ? 1 : 0; },
+constexpr auto kOwn = std::to_array<OwnParameter>({
+    own<&C::pixels_per_sram>("PIXELS_PER_SRAM"),
+    own<&C::sram_num>("SRAM_NUM"),
+    own<&C::pointer_ports>("POINTER_PORTS"),
+    own<&C::signalled_clear>("SIGNALLED_CLEAR"),
+    own<&C::raw_histogram>("RAW_HISTOGRAM"),
+    {"TIME_GATE", [](const C& c) { return c.parameters.time_gate ? 1 : 0; },
      [](C& c, int value) { c.parameters.time_gate = value != 0 ? std::optional(CodeGate{}) : std::nullopt; }},
-    {"RAW_HISTOGRAM", kOfArray, kGetFlag<&C::raw_histogram>, kSetFlag<&C::raw_histogram>},
-    {"GROUP_SIZE", kOfPool, kGetPool<&P::group_size>, kSetPool<&P::group_size>},
-    {"LABELS", kOfPool, kGetPool<&P::labels>, kSetPool<&P::labels>},
-    {"SCORE_BITS", kOfPool, kGetPool<&P::score_bits>, kSetPool<&P::score_bits>},
-    {"OFFSET_BITS", kOfPool, kGetPool<&P::offset_bits>, kSetPool<&P::offset_bits>},
-    {"ADVANTAGE_WIDTH", kOfPool, kGetPool<&P::count_bits>, kSetPool<&P::count_bits>},
-    {"POINTER_SHIFT", kOfPool, kGetPool<&P::pointer_shift>, kSetPool<&P::pointer_shift>},
-    {"RIVAL_MOVES", kOfPool, kGetPoolFlag<&P::rival_moves>, kSetPoolFlag<&P::rival_moves>},
-    {"CELL_SHIFT", kOfPool, kGetPool<&P::cell_shift>, kSetPool<&P::cell_shift>},
-    {"SECOND_TARGET", kOfPool, kGetPoolFlag<&P::second_target>, kSetPoolFlag<&P::second_target>},
-    {"PRIOR", kOfPool, kGetPoolFlag<&P::prior>, kSetPoolFlag<&P::prior>},
-    {"ENGINE_COLUMNS", kOfPool, kGetPool<&P::engine_columns>, kSetPool<&P::engine_columns>},
-    {"COARSE_SHARE", kInSubsystem, kGetPool<&P::coarse_share>, kSetPool<&P::coarse_share>},
-    {"TRACK_SHARE", kInSubsystem, kGetPool<&P::track_share>, kSetPool<&P::track_share>},
-    {"ACQ_WIDTH", kInSubsystem, [](const C& /*c*/) { return kAcquisitionBits; }, ignore},
-    {"BROADCAST_STAGES", kInAll,
+    {"ACQ_WIDTH", [](const C& /*c*/) { return kAcquisitionBits; }, ignore},
+    {"BROADCAST_STAGES",
      [](const C& c) { return default_value(c.parameters.readout, "BROADCAST_STAGES", c.parameters.np); },
      ignore},
-}};
+});
 
-unsigned bit_of(RtlTop top) {
+const OwnParameter* find_own(std::string_view name) {
+  const auto* const found = std::ranges::find(kOwn, name, &OwnParameter::name);
+  return found == kOwn.end() ? nullptr : found;
+}
+
+int value_of(const RtlConfiguration& configuration, std::string_view name) {
+  if (const OwnParameter* const own = find_own(name)) {
+    return own->get(configuration);
+  }
+  if (name == "FRACTION_BITS" && is_pool_readout(configuration.parameters.readout)) {
+    return 0;  // the RTL computes a pool read-out's from NP
+  }
+  const ParameterEntry* const entry = find_parameter_entry(name);
+  if (entry == nullptr) {
+    throw std::logic_error(fmt::format("{} of readouts.toml has no member in C++", name));
+  }
+  return entry->get(configuration.parameters);
+}
+
+bool is_in(RtlTop top, const RtlParameter& parameter) {
   switch (top) {
     case RtlTop::kArray:
-      return kInArray;
+      return parameter.in_array;
     case RtlTop::kPoolArray:
-      return kInPoolArray;
+      return parameter.in_pool_array;
     default:
-      return kInSubsystem;
+      return true;
   }
 }
 
@@ -120,22 +94,25 @@ std::vector<RtlSetting> rtl_settings(const RtlConfiguration& configuration, RtlT
   if (top != RtlTop::kPoolArray) {
     settings.push_back({"READOUT", rtl_readout_number(configuration.parameters.readout)});
   }
-  for (const Parameter& parameter : kParameters) {
-    if ((parameter.tops & bit_of(top)) != 0) {
+  for (const RtlParameter& parameter : rtl_parameters()) {
+    if (is_in(top, parameter)) {
       const bool gate = top == RtlTop::kSubsystem && parameter.name == "TIME_GATE";
-      settings.push_back({parameter.name, gate ? 1 : parameter.get(configuration)});
+      settings.push_back({parameter.name, gate ? 1 : value_of(configuration, parameter.name)});
     }
   }
   return settings;
 }
 
 bool set_rtl_parameter(RtlConfiguration& configuration, std::string_view name, int value) {
-  const auto* found = std::ranges::find(kParameters, name, &Parameter::name);
-  if (found == kParameters.end()) {
-    return false;
+  if (const OwnParameter* const own = find_own(name)) {
+    own->set(configuration, value);
+    return true;
   }
-  found->set(configuration, value);
-  return true;
+  if (const ParameterEntry* const entry = find_parameter_entry(name)) {
+    entry->set(configuration.parameters, value);
+    return true;
+  }
+  return false;
 }
 
 std::string configuration_toml(const std::string& name, const RtlConfiguration& configuration) {

@@ -8,6 +8,7 @@
 #include "command_line/options.hpp"
 #include "common/readout_variant.hpp"
 #include "dtof/core/error.hpp"
+#include "dtof/core/parameter_entry.hpp"
 #include "dtof/scene/scene.hpp"
 #include "run/region.hpp"
 
@@ -30,15 +31,12 @@ void read(const std::uint8_t* data, std::size_t size) {
   attempt([&] { (void)dtof::parse_scene(text); });
   dtof::ReadoutOptions options;
   options.readouts = text;
-  options.np = data[0] - 128;
-  const int value = data[1] - 128;
-  for (auto* option :
-       {&options.nb, &options.slots, &options.count_width, &options.pointer_step, &options.fraction_bits,
-        &options.confidence_width, &options.guard, &options.cell_shift}) {
-    *option = value;
+  const int np = data[0] - 128;
+  for (const dtof::ParameterEntry& entry : dtof::parameter_entries()) {
+    options.values = {{"NP", np}, {entry.name, data[1] - 128}};
     attempt([&] { (void)options.parameters(dtof::kAllReadouts); });
-    option->reset();
   }
+  options.values = {{"NP", np}};
   options.code_gate = {data[2], data[3]};
   (void)options.parameters(dtof::kAllReadouts);
 }

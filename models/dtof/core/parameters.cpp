@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/parameter_entry.hpp"
 #include "dtof/core/suggestion.hpp"
 
 namespace dtof {
@@ -49,21 +50,7 @@ Readout parse_readout(std::string_view name) {
 }
 
 PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
-  constexpr int kAnyBits = 10;  // none of these depends on NP
-  const auto value = [&](std::string_view parameter) { return default_value(readout, parameter, kAnyBits); };
-  return {.group_size = value("GROUP_SIZE"),
-          .labels = value("LABELS"),
-          .score_bits = value("SCORE_BITS"),
-          .offset_bits = value("OFFSET_BITS"),
-          .count_bits = value("ADVANTAGE_WIDTH"),
-          .pointer_shift = value("POINTER_SHIFT"),
-          .rival_moves = value("RIVAL_MOVES") != 0,
-          .cell_shift = value("CELL_SHIFT"),
-          .second_target = value("SECOND_TARGET") != 0,
-          .prior = value("PRIOR") != 0,
-          .coarse_share = value("COARSE_SHARE"),
-          .track_share = value("TRACK_SHARE"),
-          .engine_columns = value("ENGINE_COLUMNS")};
+  return ReadoutParameters::defaults(readout).pool;  // none of these depends on NP
 }
 
 void PoolPointerParameters::validate(int count_width) const {
@@ -129,16 +116,11 @@ ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
   ReadoutParameters parameters;
   parameters.readout = readout;
   parameters.np = np;
-  const auto value = [&](std::string_view parameter) { return default_value(readout, parameter, np); };
-  parameters.nb = value("NB");
-  parameters.slots = value("SLOTS");
-  parameters.count_width = value("COUNT_WIDTH");
-  parameters.pointer_step = value("POINTER_STEP");
-  parameters.fraction_bits = value("FRACTION_BITS");
-  parameters.confidence_width = value("CONFIDENCE_WIDTH");
-  parameters.guard = value("GUARD");
-  parameters.window_centred = value("WINDOW_CENTRED") != 0;
-  parameters.pool = PoolPointerParameters::defaults(readout);
+  for (const ParameterEntry& entry : parameter_entries()) {
+    if (entry.name != "NP") {
+      entry.set(parameters, default_value(readout, entry.name, np));
+    }
+  }
   return parameters;
 }
 

@@ -4,55 +4,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
-
 #include "dtof/core/error.hpp"
+#include "dtof/core/parameter_entry.hpp"
 
 namespace dtof {
 namespace {
-
-using Parameters = ReadoutParameters;
-
-struct Choice {
-  std::string_view name;
-  int (*get)(const Parameters&);
-  void (*set)(Parameters&, int);
-};
-
-template <int Parameters::*Member>
-constexpr Choice member(std::string_view name) {
-  return {name, [](const Parameters& from) { return from.*Member; },
-          [](Parameters& to, int value) { to.*Member = value; }};
-}
-
-constexpr std::array kChoices = std::to_array<Choice>({
-    member<&Parameters::np>("NP"),
-    member<&Parameters::slots>("SLOTS"),
-    member<&Parameters::nb>("NB"),
-    member<&Parameters::count_width>("COUNT_WIDTH"),
-    member<&Parameters::pointer_step>("POINTER_STEP"),
-    member<&Parameters::fraction_bits>("FRACTION_BITS"),
-    member<&Parameters::confidence_width>("CONFIDENCE_WIDTH"),
-    member<&Parameters::guard>("GUARD"),
-    {"WINDOW_CENTRED", [](const Parameters& from) { return from.window_centred ? 1 : 0; },
-     [](Parameters& to, int value) {
-       if (value != 0 && value != 1) {
-         throw InputError(fmt::format("WINDOW_CENTRED must be 0 or 1, is {}", value));
-       }
-       to.window_centred = value == 1;
-     }},
-    {"CELL_SHIFT", [](const Parameters& from) { return from.pool.cell_shift; },
-     [](Parameters& to, int value) { to.pool.cell_shift = value; }},
-});
 
 bool belongs_to(Readout readout, std::string_view parameter) {
   return parameter == "NP" || parameter == "SLOTS" || has_parameter(readout, parameter);
 }
 
-const Choice& find_choice(Readout readout, std::string_view name) {
-  const auto found = std::ranges::find(kChoices, name, &Choice::name);
-  if (found == kChoices.end() || !belongs_to(readout, name)) {
+const ParameterEntry& find_choice(Readout readout, std::string_view name) {
+  const ParameterEntry* const found = find_parameter_entry(name);
+  if (found == nullptr || !belongs_to(readout, name)) {
     throw InputError(fmt::format("{} has no parameter {}; it has {}", readout_name(readout), name,
                                  fmt::join(parameter_names(readout), ", ")));
   }
@@ -62,10 +26,10 @@ const Choice& find_choice(Readout readout, std::string_view name) {
 }  // namespace
 
 std::vector<std::string_view> parameter_names(Readout readout) {
-  std::vector<std::string_view> names;
-  for (const Choice& choice : kChoices) {
-    if (belongs_to(readout, choice.name)) {
-      names.push_back(choice.name);
+  std::vector<std::string_view> names = {"NP", "SLOTS"};
+  for (const ParameterEntry& entry : parameter_entries()) {
+    if (has_parameter(readout, entry.name)) {
+      names.push_back(entry.name);
     }
   }
   return names;
@@ -76,7 +40,11 @@ int get_parameter(const ReadoutParameters& parameters, std::string_view name) {
 }
 
 void set_parameter(ReadoutParameters& parameters, std::string_view name, int value) {
-  find_choice(parameters.readout, name).set(parameters, value);
+  const ParameterEntry& entry = find_choice(parameters.readout, name);
+  if (entry.flag && value != 0 && value != 1) {
+    throw InputError(fmt::format("{} must be 0 or 1, is {}", name, value));
+  }
+  entry.set(parameters, value);
 }
 
 }  // namespace dtof

@@ -31,4 +31,17 @@ ReadoutParameters default_parameters(Readout readout, const SensorModel& sensor)
   return parameters;
 }
 
+std::string_view default_source(std::string_view parameter) {
+  if (parameter == "NP") {
+    return "the sensor's, 10 for a recording";
+  }
+  if (parameter == "SLOTS") {
+    return "the sensor's";
+  }
+  if (parameter == "GUARD") {
+    return "the pulse's FWHM in bins";
+  }
+  return parameter == "CELL_SHIFT" ? "follows from the pulse's FWHM" : "the read-out's own";
+}
+
 }  // namespace dtof

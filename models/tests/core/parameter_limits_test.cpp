@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/parameter_entry.hpp"
 #include "dtof/core/parameters.hpp"
 
 namespace dtof {
@@ -51,25 +51,6 @@ const std::set<std::string> kOfTheArray = {
     "READOUT",     "PIXELS_PER_SRAM", "SRAM_NUM", "POINTER_PORTS", "ENGINE_COLUMNS",  "ACQ_WIDTH",
     "RIVAL_MOVES", "SECOND_TARGET",   "PRIOR",    "RAW_HISTOGRAM", "BROADCAST_STAGES"};
 
-const std::map<std::string, int ReadoutParameters::*> kOfEveryReadout = {
-    {"NP", &ReadoutParameters::np},
-    {"NB", &ReadoutParameters::nb},
-    {"SLOTS", &ReadoutParameters::slots},
-    {"COUNT_WIDTH", &ReadoutParameters::count_width},
-    {"POINTER_STEP", &ReadoutParameters::pointer_step},
-    {"FRACTION_BITS", &ReadoutParameters::fraction_bits},
-    {"CONFIDENCE_WIDTH", &ReadoutParameters::confidence_width},
-    {"GUARD", &ReadoutParameters::guard}};
-
-const std::map<std::string, int PoolPointerParameters::*> kOfPoolReadouts = {
-    {"GROUP_SIZE", &PoolPointerParameters::group_size},
-    {"OFFSET_BITS", &PoolPointerParameters::offset_bits},
-    {"ADVANTAGE_WIDTH", &PoolPointerParameters::count_bits},
-    {"POINTER_SHIFT", &PoolPointerParameters::pointer_shift},
-    {"CELL_SHIFT", &PoolPointerParameters::cell_shift},
-    {"LABELS", &PoolPointerParameters::labels},
-    {"SCORE_BITS", &PoolPointerParameters::score_bits}};
-
 ReadoutParameters of_model(const Row& row) {
   const bool pool = row.top != "dtof_array";
   ReadoutParameters parameters =
@@ -78,16 +59,11 @@ ReadoutParameters of_model(const Row& row) {
     if (name == "READOUT") {
       // A number of dtof_array is the read-out's place in C++.
       parameters = ReadoutParameters::defaults(static_cast<Readout>(value));
-    } else if (name == "RIVAL_MOVES") {
-      parameters.pool.rival_moves = value != 0;
-    } else if (name == "SECOND_TARGET") {
-      parameters.pool.second_target = value != 0;
-    } else if (name == "PRIOR") {
-      parameters.pool.prior = value != 0;
-    } else if (pool && kOfPoolReadouts.contains(name)) {
-      parameters.pool.*kOfPoolReadouts.at(name) = value;
+    } else if (const ParameterEntry* const entry = find_parameter_entry(name);
+               entry != nullptr && name != "ENGINE_COLUMNS") {
+      entry->set(parameters, value);
     } else if (!kOfTheArray.contains(name)) {
-      parameters.*kOfEveryReadout.at(name) = value;
+      ADD_FAILURE() << "the models have no " << name;
     }
     if (pool && name == "NP") {
       parameters.fraction_bits = 16 - value;  // no parameter of the RTL, where it follows from NP

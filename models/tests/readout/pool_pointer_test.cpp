@@ -10,9 +10,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <map>
-#include <numeric>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +18,8 @@
 #include "dtof/core/parameters.hpp"
 #include "dtof/core/random.hpp"
 #include "tests/core/test_seed.hpp"
+#include "tests/readout/pool_reference.hpp"
+#include "tests/readout/surface_streams.hpp"
 #include "tests/readout/test_streams.hpp"
 
 namespace dtof {
@@ -28,654 +27,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-// ---- An independent reference, as slow and as close to docs/reference/poolpointer.md as possible --------
-//
-// A dictionary from (column, row) to a pixel, plain numbers where the model has named parameters, no cells
-// where positions do, and every chain solved anew for every label of every pixel.
-
-struct Place {
-  int column;
-  int row;
-  bool operator<(const Place& other) const {
-    return column != other.column ? column < other.column : row < other.row;
-  }
-};
-
-struct Pixel {
-  std::map<int, std::vector<int>> seen;  // acquisition: positions of the first one or two timestamps
-  std::vector<int> score;
-  int leader = 0;
-  int offset = 0;
-  int chosen = 0;
-  bool sure = false;
-  int alone = 0;  // where its leader's pointer would start without its neighbours
-  int n = 0, pa = 0, pb = 0;
-  int ka = 0, kb = 0;  // lean: whose candidates they are
-  int winner = 0, loser = 0, margin = 0;
-  int significance = 0;
-};
-
-struct Group {
-  std::vector<int> h = std::vector<int>(32, 0);
-  std::vector<int> cell;
-  int b = 0;
-  bool frozen = false;
-  bool tilted = false;
-  std::vector<int> significance;  // of each candidate
-};
-
-int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
-
-class Reference {
- public:
-  /// What the definition leaves open.
-  struct Open {
-    int coarse = 14;  // 64ths
-    int track = 30;
-    bool left_needs_margin = false;
-    bool smooth = true;
-    bool lean = false;  ///< the numbers of poolPointer lean
-    bool second_target = false;
-    int cell = 512;               ///< positions of a settled pointer's cell
-    bool prior = false;           ///< the array has PRIOR = 1
-    std::array<int, 32> taken{};  ///< fours that a bin's sum loses
-  };
-
-  /// By group, the cells that its pixels chose.
-  using Used = std::map<Place, std::set<int>>;
-
-  /// One engine: columns from left to right. `before`: of the last frame.
-  Reference(const std::vector<ColumnStream>& columns, int np, int acquisitions, Open open, Used before = {})
-      : before_(std::move(before)),
-        columns_(static_cast<int>(columns.size())),
-        rows_(columns.front().rows()),
-        np_(np),
-        all_(acquisitions),
-        open_(open) {
-    const int scale = 1 << (16 - np);
-    for (int c = 0; c < columns_; ++c) {
-      for (int r = 0; r < rows_; ++r) {
-        Pixel& pixel = pixels_[{c, r}];
-        pixel.score.assign(static_cast<std::size_t>(labels()), 0);
-        for (const Detection& d : columns[static_cast<std::size_t>(c)].row(r)) {
-          if (d.timestamp != (1 << np) - 1) {
-            std::vector<int>& times = pixel.seen[static_cast<int>(d.acquisition)];
-            if (times.size() < 2) {
-              times.push_back(d.timestamp * scale + scale / 2);
-            }
-          }
-        }
-      }
-    }
-  }
-
-  std::vector<std::vector<PixelResult>> run() {
-    coarse();
-    for (auto& [place, group] : groups_) {
-      decode(place, group);
-    }
-    for (auto& [place, pixel] : pixels_) {
-      for (const auto& [a, times] : pixel.seen) {
-        if (a >= coarse_end() && a < track_end()) {
-          track(pixel, group(place), a, times);
-        }
-      }
-    }
-    for (int c = 0; c < columns_; ++c) {
-      choose(c);
-    }
-    for (auto& [place, pixel] : pixels_) {
-      for (const auto& [a, times] : pixel.seen) {
-        if (a >= track_end()) {
-          open_.lean ? point_lean(pixel, group(place), a, times) : point(pixel, a, times);
-        }
-      }
-    }
-    for (int c = 0; c < columns_; ++c) {
-      decide(c);
-    }
-    std::vector<std::vector<PixelResult>> results(static_cast<std::size_t>(columns_));
-    for (const auto& [place, pixel] : pixels_) {
-      results[static_cast<std::size_t>(place.column)].push_back(result(place));
-    }
-    return results;
-  }
-
-  /// Behind run().
-  [[nodiscard]] Used used() const {
-    Used used;
-    for (const auto& [place, pixel] : pixels_) {
-      used[{place.column / 2, place.row / group_rows()}].insert(pixel.chosen);
-    }
-    return used;
-  }
-
- private:
-  [[nodiscard]] int coarse_end() const { return all_ * open_.coarse / 64; }
-  [[nodiscard]] int track_end() const { return all_ * (open_.coarse + open_.track) / 64; }
-
-  [[nodiscard]] int labels() const { return open_.lean ? 4 : 5; }
-  [[nodiscard]] int group_rows() const { return open_.lean ? 8 : 4; }
-
-  Group& group(Place place) { return groups_[{place.column / 2, place.row / group_rows()}]; }
-
-  static int preferred(int a, const std::vector<int>& times) {
-    return a % 2 == 1 && times.size() == 2 ? times[1] : times[0];
-  }
-
-  void coarse() {
-    for (const auto& [place, pixel] : pixels_) {
-      (void)group(place);  // one without a timestamp is a group, too
-    }
-    for (int a = 0; a < coarse_end(); ++a) {
-      if ((a + 1) % 64 == 0) {
-        for (auto& [place, swept] : groups_) {
-          sweep(swept);
-        }
-        continue;
-      }
-      for (int c = 0; c < columns_; ++c) {
-        for (int r = 0; r < rows_; r += 2) {
-          // Even acquisitions are the even row's turn, if it has a timestamp.
-          for (const int row : {r + a % 2, r + 1 - a % 2}) {
-            const auto pixel = pixels_.find({c, row});
-            if (pixel != pixels_.end() && pixel->second.seen.contains(a)) {
-              Group& counting = group({c, r});
-              int& bin = counting.h[static_cast<std::size_t>(preferred(a, pixel->second.seen[a]) / 2048)];
-              bin = counting.frozen ? bin : std::min(127, bin + 1);
-              break;
-            }
-          }
-        }
-      }
-    }
-  }
-
-  static void sweep(Group& swept) {
-    std::vector<int> ascending = swept.h;
-    std::sort(ascending.begin(), ascending.end());
-    if (swept.frozen || ascending.back() != 127) {
-      return;
-    }
-    swept.frozen = ascending.front() < 32;
-    for (int& bin : swept.h) {
-      bin -= swept.frozen ? 0 : 32;
-    }
-  }
-
-  void decode(Place place, Group& own) {
-    std::vector<Group*> beside;
-    int missing = 0;
-    for (const Place at : {Place{place.column, place.row - 1}, Place{place.column, place.row + 1},
-                           Place{place.column - 1, place.row}, Place{place.column + 1, place.row}}) {
-      const auto found = groups_.find(at);
-      beside.push_back(found == groups_.end() ? &own : &found->second);
-      missing += found == groups_.end() ? 1 : 0;
-    }
-    std::array<int, 4> octets{};
-    std::vector<int> w;
-    std::vector<int> raise;
-    for (std::size_t i = 0; i < 32; ++i) {
-      octets[i / 8] += own.h[i];
-      if (i < 31) {
-        w.push_back(0);
-        for (const std::size_t j : {i, i + 1}) {
-          int sum = 3 * own.h[j];
-          for (const Group* other : beside) {
-            sum += other->h[j];
-          }
-          w.back() += std::max(0, sum - 4 * open_.taken[j]);
-        }
-        bool wanted = false;
-        for (const int cell : before_[place]) {
-          wanted = wanted || (cell >= 4 * static_cast<int>(i) + 2 && cell <= 4 * static_cast<int>(i) + 6);
-        }
-        raise.push_back(wanted ? 28 : 0);
-        w.back() += raise.back();
-      }
-    }
-    own.b = 5 * *std::min_element(octets.begin(), octets.end()) / 128;
-    own.b = open_.lean ? own.b / 4 * 4 + 2 : own.b;
-    own.tilted = 2 * octets[0] - 32 > *std::min_element(octets.begin(), octets.end()) * 3;
-    std::vector<int> earlier = w;
-    std::vector<int> free_pairs(31);
-    std::iota(free_pairs.begin(), free_pairs.end(), 0);
-    std::erase_if(free_pairs, [&](int i) {
-      bool hidden = false;
-      for (int bin = std::max(i - 2, 0); bin <= std::min(i + 1, 6); ++bin) {
-        hidden = hidden || open_.taken[static_cast<std::size_t>(bin)] > 127;
-      }
-      return hidden;
-    });
-    int least = 1 << 20;
-    for (const int i : free_pairs) {
-      least = std::min(least, w[static_cast<std::size_t>(i)]);
-    }
-    const auto value = [&](int i) { return i < 0 || i > 30 ? 0 : w[static_cast<std::size_t>(i)]; };
-    for (int k = 0; k < labels(); ++k) {
-      const int peak = *std::max_element(free_pairs.begin(), free_pairs.end(),
-                                         [&](int i, int j) { return value(i) < value(j); });
-      const int difference = value(peak + 1) - value(peak - 1);
-      const int height = value(peak) - std::min(value(peak + 1), value(peak - 1));
-      int cell = 4 * peak + 4;
-      if (height > 0 && 2 * difference > height) {
-        ++cell;
-      } else if (height > 0 && -2 * difference > height) {
-        --cell;
-      }
-      own.cell.push_back(cell);
-      own.significance.push_back(
-          significance(w, earlier, peak, missing, raise[static_cast<std::size_t>(peak)]));
-      earlier = w;
-      const int leak = (value(peak) - least) / 8;
-      for (const int i : {peak - 2, peak + 2}) {
-        if (i >= 0 && i <= 30 && value(peak) > least) {
-          w[static_cast<std::size_t>(i)] = std::max(0, value(i) - leak);
-        }
-      }
-      std::erase_if(free_pairs, [&](int i) { return std::abs(i - peak) <= 1; });
-    }
-  }
-
-  /// 2^-3 (8 e + m), m the next three bits of x behind its first one.
-  static int lg(int x) {
-    int e = 0;
-    while (x >> (e + 1) != 0) {
-      ++e;
-    }
-    return 8 * e + x * 8 / (1 << e) - 8;
-  }
-
-  [[nodiscard]] int significance(const std::vector<int>& w, const std::vector<int>& earlier, int peak,
-                                 int missing, int raise) const {
-    // The pairs beyond the peak are those before the last candidate's leakage was taken.
-    std::vector<int> sides;
-    for (const int away : {-4, -3, 3, 4}) {
-      const int at = peak + away;
-      const bool inside = away < 0 ? peak >= 4 : peak <= 26;
-      sides.push_back(!inside    ? 0
-                      : away < 0 ? w[static_cast<std::size_t>(at)]
-                                 : earlier[static_cast<std::size_t>(at)]);
-    }
-    const int low = sides[0] + sides[1];
-    const int high = sides[2] + sides[3];
-    const int around = peak < 4 ? high * 9 / 4 : peak > 26 ? 2 * low : low + high;
-    const int height = 4 * (w[static_cast<std::size_t>(peak)] - raise) - around;
-    if (height < 1) {
-      return 0;
-    }
-    const int long_frame = all_ > 3333 ? (lg(all_) - 93) / 2 : 0;
-    const int above = 2 * lg(height) - lg(around * 9 / 8 + 64) - 36 - long_frame - 4 * missing;
-    const int z = above < 0 ? 0 : std::min(7, above / 4);
-    return open_.prior ? (z < 3 ? 0 : (z - 1) / 2) : z;
-  }
-
-  /// True if a position counts for no label, because background comes early.
-  static bool thinned(int a, int x) {
-    constexpr std::array<int, 8> kLate = {0, 4, 2, 6, 1, 5, 3, 7};
-    const int sixteens = a / 16;
-    return sixteens % 4 == 0 && kLate[static_cast<std::size_t>(sixteens / 4 % 8)] + x / 8192 < 7;
-  }
-
-  /// Distance from a position in whole cells, towards minus infinity.
-  static int cells(int x, int from) { return floor_divide(x - from, 512); }
-
-  template <typename Test>
-  static int take(int a, const std::vector<int>& times, Test inside) {
-    const int first_choice = preferred(a, times);
-    for (const int x : times) {
-      if (!inside(first_choice) && inside(x)) {
-        return x;
-      }
-    }
-    return first_choice;
-  }
-
-  /// The first candidate whose window has a position; -1 if none has.
-  static int label_of(const Group& g, int x) {
-    for (std::size_t k = 0; k < g.cell.size(); ++k) {
-      if (near_candidate(g, static_cast<int>(k), x)) {
-        return static_cast<int>(k);
-      }
-    }
-    return -1;
-  }
-  static bool near_candidate(const Group& g, int k, int x) {
-    const int d = cells(x, 512 * g.cell[static_cast<std::size_t>(k)]);
-    return d >= -4 && d <= 3;
-  }
-
-  void track(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) const {
-    if (g.b > 3 && thinned(a, preferred(a, times))) {
-      return;
-    }
-    const int x = take(a, times, [&](int time) { return label_of(g, time) >= 0; });
-    auto& score = pixel.score;
-    const auto lead = static_cast<std::size_t>(pixel.leader);
-    const int e = cells(preferred(a, times), 512 * g.cell[lead] + 64 * pixel.offset);
-    const int step = score[lead] < 3 ? 4 : score[lead] < 8 ? 2 : 1;
-    if (open_.lean) {
-      // There is no offset, and who leads is asked in choose.
-    } else if (e >= 1 && e <= 7) {
-      pixel.offset = std::min(31, pixel.offset + step);
-    } else if (e >= -8 && e <= -2) {
-      pixel.offset = std::max(-32, pixel.offset - step);
-    }
-    const int label = label_of(g, x);
-    if (label < 0) {
-      return;
-    }
-    const auto k = static_cast<std::size_t>(label);
-    if (score[k] == 15) {
-      for (std::size_t other = 0; other < score.size(); ++other) {
-        score[other] = other == k ? 15 : std::max(0, score[other] - 1);
-      }
-    } else {
-      ++score[k];
-    }
-    if (!open_.lean && score[k] > score[lead]) {
-      pixel.leader = label;
-      pixel.offset = 0;
-    }
-  }
-
-  /// Evidence of a pixel's scores alone.
-  std::vector<int> own_evidence(Place place) {
-    std::vector<int> e = pixels_.at(place).score;
-    for (std::size_t k = 2; k < e.size(); ++k) {
-      e[k] -= group(place).b / 8;
-    }
-    return e;
-  }
-
-  static std::pair<std::size_t, std::size_t> best_two(const std::vector<int>& values) {
-    std::vector<std::size_t> order;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      order.push_back(k);
-    }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t i, std::size_t j) { return values[i] > values[j]; });
-    return {order[0], order[1]};
-  }
-
-  /// By pixel and label, the best sum over all assignments of the other pixels, found by walking outwards
-  /// from the pixel.
-  static std::vector<std::vector<int>> beliefs(const std::vector<std::vector<int>>& evidence,
-                                               const std::vector<std::vector<int>>& position,
-                                               const std::vector<int>& lambda) {
-    std::vector<std::vector<int>> best(evidence.size());
-    for (std::size_t fixed = 0; fixed < evidence.size(); ++fixed) {
-      for (std::size_t label = 0; label < evidence[fixed].size(); ++label) {
-        best[fixed].push_back(evidence[fixed][label] +
-                              beyond(evidence, position, lambda, static_cast<int>(fixed), label, -1) +
-                              beyond(evidence, position, lambda, static_cast<int>(fixed), label, +1));
-      }
-    }
-    return best;
-  }
-
-  /// Best sum of all pixels on one side of a pixel that has a label; they pay their own lambdas towards it.
-  static int beyond(const std::vector<std::vector<int>>& evidence,
-                    const std::vector<std::vector<int>>& position, const std::vector<int>& lambda, int pixel,
-                    std::size_t label, int direction) {
-    const int end = direction < 0 ? 0 : static_cast<int>(evidence.size()) - 1;
-    if (pixel == end) {
-      return 0;
-    }
-    std::vector<int> value(evidence[static_cast<std::size_t>(end)]);
-    for (int at = end; at != pixel + direction; at -= direction) {
-      const auto from = static_cast<std::size_t>(at);
-      const auto to = static_cast<std::size_t>(at - direction);
-      std::vector<int> next(evidence[to]);
-      for (std::size_t l = 0; l < next.size(); ++l) {
-        next[l] += best_step(value, position[from], position[to][l], lambda[from]);
-      }
-      value = next;
-    }
-    const int neighbour = pixel + direction;
-    const auto next_to = static_cast<std::size_t>(neighbour);
-    return best_step(value, position[next_to], position[static_cast<std::size_t>(pixel)][label],
-                     lambda[next_to]);
-  }
-  static int best_step(const std::vector<int>& value, const std::vector<int>& from, int to, int lambda) {
-    int best = -1000000;
-    for (std::size_t k = 0; k < value.size(); ++k) {
-      best = std::max(best, value[k] - (std::abs(from[k] - to) > 2048 ? lambda : 0));
-    }
-    return best;
-  }
-
-  void choose(int c) {
-    std::vector<std::vector<int>> evidence;
-    std::vector<std::vector<int>> position;
-    std::vector<int> lambda;
-    for (int r = 0; r < rows_; ++r) {
-      const Group& g = group({c, r});
-      std::vector<int> e = own_evidence({c, r});
-      for (std::size_t k = 0; k < e.size(); ++k) {
-        const bool heard = c > 0 && (pixels_.at({c - 1, r}).sure || !open_.left_needs_margin);
-        if (heard && std::abs(g.cell[k] - pixels_.at({c - 1, r}).chosen) > 4) {
-          e[k] -= 2 + 3 * g.b / 16;
-        }
-        if (c + 1 < columns_) {
-          const std::vector<int> told = own_evidence({c + 1, r});
-          const auto [p, q] = best_two(told);
-          const std::vector<int>& cell = group({c + 1, r}).cell;
-          const int most = 1 + 3 * g.b / 16;
-          if (std::abs(cell[p] - g.cell[k]) > 4) {
-            e[k] -= std::abs(cell[q] - g.cell[k]) > 4 ? most : std::min(told[p] - told[q], most);
-          }
-        }
-      }
-      evidence.push_back(e);
-      position.emplace_back();
-      for (const int cell : g.cell) {
-        position.back().push_back(512 * cell);
-      }
-      lambda.push_back(2 + 5 * g.b / 16);
-    }
-    const auto belief = beliefs(evidence, position, lambda);
-    for (int r = 0; r < rows_; ++r) {
-      Pixel& pixel = pixels_.at({c, r});
-      const Group& g = group({c, r});
-      const auto [a, b] = best_two(belief[static_cast<std::size_t>(r)]);
-      const auto start = [&](std::size_t k) {
-        return 512 * g.cell[k] + (static_cast<int>(k) == pixel.leader ? 64 * pixel.offset : 0);
-      };
-      pixel.chosen = g.cell[a];
-      pixel.n = std::min(open_.lean ? 7 : 63,
-                         belief[static_cast<std::size_t>(r)][a] - belief[static_cast<std::size_t>(r)][b]);
-      pixel.sure = pixel.n > 0;
-      pixel.alone = start(a);
-      pixel.pa = pixel.alone;
-      pixel.pb = floor_divide(start(b), 512);
-      pixel.ka = static_cast<int>(a);
-      pixel.kb = static_cast<int>(b);
-    }
-    for (int r = 0; r < rows_ && !open_.lean; ++r) {
-      pixels_.at({c, r}).pa += towards_neighbours({c, r}, [](const Pixel& pixel) { return pixel.alone; });
-    }
-  }
-
-  /// Those above, below and to the left that are near.
-  template <typename Position>
-  std::vector<Place> near_places(Place place, Position position) {
-    const bool small = group(place).b < 6 || std::abs(pixels_.at(place).margin) > 63;
-    const int reach = open_.cell == 1024 ? 2048 : small ? 1024 : 1536;
-    std::vector<Place> near;
-    for (const Place at : {Place{place.column, place.row - 1}, Place{place.column, place.row + 1},
-                           Place{place.column - 1, place.row}}) {
-      if (pixels_.contains(at) && std::abs(position(pixels_.at(at)) - position(pixels_.at(place))) <= reach) {
-        near.push_back(at);
-      }
-    }
-    return near;
-  }
-
-  /// By how much a position moves towards those of the pixels above, below and to the left.
-  template <typename Position>
-  int towards_neighbours(Place place, Position position) {
-    int sum = 0;
-    for (const Place at : near_places(place, position)) {
-      sum += position(pixels_.at(at)) - position(pixels_.at(place));
-    }
-    return sum >= 0 ? sum / 4 : -(-sum / 4);
-  }
-
-  /// Moves lean's pointer: the rival stays at its candidate, and the pointer leaves its own candidate by at
-  /// most half a coarse bin.
-  void point_lean(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) const {
-    const int centre = 512 * g.cell[static_cast<std::size_t>(pixel.ka)];
-    int x = preferred(a, times);
-    if (a % 2 == 0 && times.size() == 2 && label_of(g, x) < 0) {
-      x = times[1];
-    }
-    const int distance = x - pixel.pa;
-    const int cell = pixel.n >= 12 ? open_.cell : 512;
-    const bool hit = distance >= -5 * cell && distance < 5 * cell;
-    const bool rival = !hit && near_candidate(g, pixel.kb, x);
-    const int n = pixel.n;
-    if (rival && n == 0) {
-      std::swap(pixel.ka, pixel.kb);
-      pixel.pa = 512 * g.cell[static_cast<std::size_t>(pixel.ka)];
-      pixel.n = 1;
-      return;
-    }
-    if (distance >= -8 * cell && distance < 8 * cell) {
-      const std::map<int, int> gears = {{3, 512}, {7, 256}, {11, 128}, {13, 64}, {14, 32}, {15, 16}};
-      constexpr std::array<int, 8> kWeight = {1, 3, 4, 4, 4, 3, 2, 1};
-      const int away = distance >= 0 ? distance / cell : (-distance - 1) / cell;
-      const int product = gears.lower_bound(n)->second * kWeight[static_cast<std::size_t>(away)];
-      const int move = (product + 16 * (a % 4) + a / 4 % 16) / 64 * 16;
-      pixel.pa = std::clamp(distance >= 0 ? pixel.pa + move : pixel.pa - move, centre - 2048, centre + 2032);
-    }
-    const int every = n < 8 ? 1 : n < 12 ? 4 : 16;
-    if (a % every == 0 && !thinned(a, x)) {
-      pixel.n = hit ? std::min(15, n + 1) : rival ? n - 1 : n;
-    }
-  }
-
-  void point(Pixel& pixel, int a, const std::vector<int>& times) const {
-    const auto inside = [&](int time) {
-      const int away = time / 512 - pixel.pa / 512;
-      return away >= -8 && away <= 7;
-    };
-    const int x = take(a, times, inside);
-    const int distance = x - pixel.pa;
-    const int cell = pixel.n >= 16 ? open_.cell : 512;
-    const bool hit = distance >= -5 * cell && distance < 5 * cell;
-    const int f = x / 512 - pixel.pb;
-    const bool rival = !hit && f >= -6 && f <= 5;
-    const int n = pixel.n;
-    if (rival && n == 0) {
-      const int old = pixel.pa;
-      pixel.pa = 512 * pixel.pb + 256;
-      pixel.pb = old / 512;
-      pixel.n = 1;
-      return;
-    }
-    if (distance >= -8 * cell && distance < 8 * cell) {
-      const std::map<int, int> gears = {{7, 256}, {15, 128}, {31, 64}, {63, 32}, {79, 16},
-                                        {99, 8},  {115, 4},  {123, 2}, {127, 1}};
-      constexpr std::array<int, 8> kWeight = {1, 3, 4, 4, 4, 3, 2, 1};
-      const int away = distance >= 0 ? distance / cell : (-distance - 1) / cell;
-      const int product = gears.lower_bound(n)->second * kWeight[static_cast<std::size_t>(away)];
-      // Positions are even: what is below two of them is dithered by the acquisition's low bits.
-      const int move = (product + 2 * (a % 4) + a / 4 % 2) / 8 * 2;
-      pixel.pa = std::clamp(distance >= 0 ? pixel.pa + move : pixel.pa - move, 0, 65534);
-    }
-    if (rival && f != 0) {
-      pixel.pb += f > 0 ? 1 : -1;
-    }
-    const int every = n < 64 ? 1 : n < 96 ? 4 : 16;
-    if (a % every == 0 && !thinned(a, x)) {
-      pixel.n = hit ? std::min(127, n + 1) : rival ? n - 1 : n;
-    }
-  }
-
-  void decide(int c) {
-    std::vector<std::vector<int>> evidence;
-    std::vector<std::vector<int>> position;
-    for (int r = 0; r < rows_; ++r) {
-      const Pixel& pixel = pixels_.at({c, r});
-      evidence.push_back({pixel.n, 0});
-      if (open_.lean) {
-        position.push_back(
-            {std::clamp(pixel.pa, 0, 65535), 512 * group({c, r}).cell[static_cast<std::size_t>(pixel.kb)]});
-      } else {
-        position.push_back({pixel.pa, 512 * pixel.pb + 256});
-      }
-    }
-    const auto belief = beliefs(evidence, position, std::vector<int>(static_cast<std::size_t>(rows_), 2));
-    for (int r = 0; r < rows_; ++r) {
-      Pixel& pixel = pixels_.at({c, r});
-      const auto i = static_cast<std::size_t>(r);
-      pixel.margin = belief[i][0] - belief[i][1];
-      pixel.winner = position[i][pixel.margin < 0 ? 1 : 0];
-      pixel.loser = position[i][pixel.margin < 0 ? 0 : 1];
-      const Group& g = group({c, r});
-      for (std::size_t k = 0; k < g.cell.size(); ++k) {
-        if (std::abs(floor_divide(pixel.winner, 512) - g.cell[k]) <= 4) {
-          pixel.significance = std::max(pixel.significance, g.significance[k]);
-        }
-      }
-    }
-  }
-
-  int confidence(Place place) {
-    const Pixel& pixel = pixels_.at(place);
-    const Group& g = group(place);
-    const int own = std::abs(pixel.margin);
-    if (open_.lean) {
-      return own;
-    }
-    const std::vector<int> weights =
-        open_.prior ? std::vector{0, 22, 32, 64} : std::vector{0, 13, 16, 20, 24, 29, 35, 64};
-    const int weight = std::min(weights[static_cast<std::size_t>(pixel.significance)], 4 * own);
-    if (g.tilted) {
-      return weight;
-    }
-    int pooled = own;
-    for (const Place at : near_places(place, [](const Pixel& other) { return other.winner; })) {
-      pooled += std::abs(pixels_.at(at).margin);
-    }
-    struct Sky {
-      int below;  // B
-      int mean;
-      std::vector<int> parts;
-    };
-    const std::vector<Sky> skies = {{4, 18, {4, 8}},      {8, 10, {4, 8}},     {12, 14, {4, 16}},
-                                    {16, 22, {8, 16}},    {20, 36, {8, 512}},  {24, 64, {16, 64}},
-                                    {28, 128, {16, 512}}, {32, 200, {32, 64}}, {40, 255, {32, 64}}};
-    const auto sky = std::find_if(skies.begin(), skies.end(), [&](const Sky& s) { return g.b < s.below; });
-    const int above = std::max(0, pooled - sky->mean);
-    return weight + std::min(127, above / sky->parts[0] + above / sky->parts[1]);
-  }
-
-  PixelResult result(Place place) {
-    const Pixel& pixel = pixels_.at(place);
-    int position = pixel.winner;
-    if (open_.smooth) {
-      position += towards_neighbours(place, [](const Pixel& other) { return other.winner; });
-    }
-    const int scale = 1 << (16 - np_);
-    const auto limited = [&](int x) { return std::clamp(x - scale / 2, 0, 65536 - scale - 1); };
-    const int word = limited(position);
-    return {static_cast<std::uint16_t>(word / scale), static_cast<std::uint16_t>(word % scale),
-            static_cast<std::uint16_t>(confidence(place)),
-            static_cast<std::uint16_t>(open_.second_target ? limited(pixel.loser) : 0)};
-  }
-
-  Used before_;
-  int columns_;
-  int rows_;
-  int np_;
-  int all_;
-  Open open_;
-  std::map<Place, Pixel> pixels_;
-  std::map<Place, Group> groups_;
-};
 
 std::vector<std::vector<PixelResult>> read_array(std::span<const ColumnStream> array, int np,
                                                  std::uint32_t acquisitions, const PoolNumbers& parameters) {
@@ -691,7 +42,7 @@ PoolNumbers with_cells(Readout readout, int cell_shift) {
 PoolNumbers lean() { return with_cells(Readout::kPoolPointerLean, 9); }
 
 void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acquisitions,
-                         int engine_columns = 34, Reference::Open open = {}) {
+                         int engine_columns = 34, PoolReference::Open open = {}) {
   for (const bool smooth : {false, true}) {
     open.smooth = smooth;
     PoolNumbers parameters =
@@ -711,7 +62,7 @@ void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acq
       const std::size_t end = std::min(array.size(), begin + static_cast<std::size_t>(engine_columns));
       const std::vector<ColumnStream> engine(array.begin() + static_cast<std::ptrdiff_t>(begin),
                                              array.begin() + static_cast<std::ptrdiff_t>(end));
-      for (auto& column : Reference(engine, np, acquisitions, open).run()) {
+      for (auto& column : PoolReference(engine, np, acquisitions, open).run()) {
         expected.push_back(std::move(column));
       }
     }
@@ -730,66 +81,6 @@ void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acq
       }
     }
   }
-}
-
-/// A pixel with a pulse at `code` (none: -1) over background in each of `slots` slots.
-std::vector<Detection> pulse(int np, int slots, int code, double signal, double background, int acquisitions,
-                             CounterRandom& random) {
-  const int codes = 1 << np;
-  std::vector<Detection> stream;
-  for (int a = 0; a < acquisitions; ++a) {
-    std::vector<int> times;
-    for (int slot = 0; slot < slots; ++slot) {
-      if (random.uniform() < background) {
-        times.push_back(pick(random, codes));
-      } else if (code >= 0 && random.uniform() < signal) {
-        double gauss = -6.0;
-        for (int i = 0; i < 12; ++i) {
-          gauss += random.uniform();
-        }
-        times.push_back(
-            std::clamp(static_cast<int>(std::lround(code + 0.019 * codes * gauss)), 0, codes - 1));
-      }
-    }
-    std::ranges::sort(times);
-    for (const int time : times) {
-      stream.push_back({static_cast<std::uint32_t>(a), static_cast<Timestamp>(time)});
-    }
-  }
-  return stream;
-}
-
-/// Patches of surfaces, slanted in both directions, with holes.
-std::vector<ColumnStream> surfaces(int np, int slots, int columns, int rows, double background,
-                                   int acquisitions, CounterRandom& random) {
-  const int codes = 1 << np;
-  struct Patch {
-    int left, top, right, bottom, base, across, down;
-  };
-  std::vector<Patch> patches = {
-      {0, 0, columns, rows, pick(random, codes), pick(random, 21) - 10, pick(random, 21) - 10}};
-  for (int i = 0; i < 4; ++i) {
-    const int left = pick(random, columns);
-    const int top = pick(random, rows);
-    patches.push_back({left, top, left + 1 + pick(random, columns), top + 1 + pick(random, rows),
-                       pick(random, codes), pick(random, 21) - 10, pick(random, 21) - 10});
-  }
-  const double signal = 0.01 + 0.2 * random.uniform();
-  std::vector<ColumnStream> array(static_cast<std::size_t>(columns));
-  for (int c = 0; c < columns; ++c) {
-    for (int r = 0; r < rows; ++r) {
-      int code = 0;
-      for (const Patch& patch : patches) {
-        if (c >= patch.left && c < patch.right && r >= patch.top && r < patch.bottom) {
-          code = std::clamp(patch.base + patch.across * c + patch.down * r, 0, codes - 1);
-        }
-      }
-      code = pick(random, 12) == 0 ? -1 : code;
-      array[static_cast<std::size_t>(c)].append_row(
-          pulse(np, slots, code, signal, background, acquisitions, random));
-    }
-  }
-  return array;
 }
 
 class PoolPointer : public testing::Test {
@@ -858,7 +149,7 @@ TEST_F(PoolPointer, LeanAsReference) {
   constexpr std::array<double, 4> kBackgrounds = {0.0, 0.02, 0.3, 0.6};
   for (int trial = 0; trial < 40; ++trial) {
     const int np = pick(draw, 2) == 0 ? 10 : 8 + pick(draw, 7);
-    Reference::Open open{.coarse = 10, .track = 14, .lean = true, .second_target = trial % 2 == 0};
+    PoolReference::Open open{.coarse = 10, .track = 14, .lean = true, .second_target = trial % 2 == 0};
     if (trial % 4 == 3) {
       open.coarse = 1 + pick(draw, 30);
       open.track = 1 + pick(draw, 30);
@@ -914,7 +205,7 @@ TEST_F(PoolPointer, TemplatesAsReference) {
   std::size_t changed = 0;
   for (int trial = 0; trial < 24; ++trial) {
     const bool is_lean = trial % 2 == 1;
-    Reference::Open open{
+    PoolReference::Open open{
         .coarse = is_lean ? 10 : 14, .track = is_lean ? 14 : 20, .lean = is_lean, .second_target = true};
     const auto array = surfaces(10, 2, 1 + pick(draw, 7), 1 + pick(draw, 24), 0.1, 900, draw);
     const PoolNumbers usual = with_cells(is_lean ? Readout::kPoolPointerLean : Readout::kPoolPointer, 9);
@@ -968,11 +259,11 @@ TEST_F(PoolPointer, TemplateHidesCrosstalk) {
 TEST_F(PoolPointer, OtherSharesAndSwitchesAsReference) {
   CounterRandom draw = random(6);
   for (int trial = 0; trial < 24; ++trial) {
-    const Reference::Open open{.coarse = 8 + pick(draw, 16),
-                               .track = 8 + pick(draw, 24),
-                               .left_needs_margin = trial % 2 == 1,
-                               .smooth = true,
-                               .second_target = trial % 3 != 1};
+    const PoolReference::Open open{.coarse = 8 + pick(draw, 16),
+                                   .track = 8 + pick(draw, 24),
+                                   .left_needs_margin = trial % 2 == 1,
+                                   .smooth = true,
+                                   .second_target = trial % 3 != 1};
     const double background = trial % 3 == 0 ? 0.02 : 0.3;
     expect_as_reference(surfaces(10, 2, 1 + pick(draw, 9), 1 + pick(draw, 24), background, 700, draw), 10,
                         700, 2 * (1 + pick(draw, 3)), open);
@@ -1006,7 +297,7 @@ TEST_F(PoolPointer, VideosAsReference) {
   for (int video = 0; video < 6; ++video) {
     const int rows = 5 + pick(draw, 12);
     std::vector<PoolPrior> priors;
-    std::array<Reference::Used, 2> used;
+    std::array<PoolReference::Used, 2> used;
     const auto wide = surfaces(10, 2, kColumns + 4, rows, 0.5, 3 * kAcquisitions, draw);
     for (int frame = 0; frame < 4; ++frame) {
       SCOPED_TRACE(testing::Message() << "video " << video << ", frame " << frame);
@@ -1036,9 +327,9 @@ TEST_F(PoolPointer, VideosAsReference) {
       for (std::size_t engine = 0; engine < used.size(); ++engine) {
         const std::size_t first = engine * 4;
         const std::size_t end = std::min<std::size_t>(first + 4, kColumns);
-        Reference reference({array.begin() + static_cast<std::ptrdiff_t>(first),
-                             array.begin() + static_cast<std::ptrdiff_t>(end)},
-                            10, kAcquisitions, {.prior = true}, used[engine]);
+        PoolReference reference({array.begin() + static_cast<std::ptrdiff_t>(first),
+                                 array.begin() + static_cast<std::ptrdiff_t>(end)},
+                                10, kAcquisitions, {.prior = true}, used[engine]);
         const auto expected = reference.run();
         used[engine] = reference.used();
         for (std::size_t column = 0; column < expected.size(); ++column) {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_line/options.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <vector>
+
+#include "dtof/core/error.hpp"
+#include "dtof/core/parameter_entry.hpp"
+#include "dtof/sensor/default_parameters.hpp"
+
+namespace dtof {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// Parameters of the read-outs that a command line asks for.
+std::vector<ReadoutParameters> parse(const std::string& arguments) {
+  CLI::App app;
+  ReadoutOptions options;
+  options.add_to(app);
+  app.parse(arguments);
+  return options.parameters(kAllReadouts);
+}
+
+std::string option_of(std::string_view parameter) {
+  std::string option(parameter);
+  std::ranges::replace(option, '_', '-');
+  std::ranges::transform(option, option.begin(), [](unsigned char c) { return std::tolower(c); });
+  return "--" + option;
+}
+
+TEST(ReadoutOptions, EachChoiceOfEachReadOutIsAnOption) {
+  int tried = 0;
+  for (const Readout readout : kAllReadouts) {
+    const ReadoutParameters defaults = default_parameters(readout, {});
+    for (const ParameterEntry& entry : parameter_entries()) {
+      if (!has_parameter(readout, entry.name)) {
+        continue;
+      }
+      SCOPED_TRACE(fmt::format("{} {}", readout_name(readout), entry.name));
+      // poolPointer lean has no room for wider counts.
+      const bool narrower = is_pool_readout(readout) && entry.name == "COUNT_WIDTH";
+      const int value = entry.get(defaults) + (narrower ? -1 : 1);
+      const std::string option = option_of(entry.name) + (entry.flag ? "" : fmt::format(" {}", value));
+      const std::vector<ReadoutParameters> sets =
+          parse(fmt::format("--readout {} {}", readout_name(readout), option));
+      ASSERT_EQ(sets.size(), 1U);
+      for (const ParameterEntry& other : parameter_entries()) {
+        EXPECT_EQ(other.get(sets.front()), other.name == entry.name ? value : other.get(defaults))
+            << other.name;
+      }
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 20);
+}
+
+TEST(ReadoutOptions, NpAndSlotsHoldForAllReadOuts) {
+  for (const ReadoutParameters& parameters : parse("--np 9 --slots 3")) {
+    EXPECT_EQ(parameters.np, 9);
+    EXPECT_EQ(parameters.slots, 3);
+  }
+}
+
+TEST(ReadoutOptions, AParameterThatNoChosenReadOutHasIsRefused) {
+  EXPECT_THAT([] { (void)parse("--readout sifh --pointer-step 2"); },
+              ThrowsMessage<InputError>(HasSubstr("--pointer-step has no effect: sifh has no POINTER_STEP")));
+  EXPECT_EQ(parse("--readout sifh,ezpointer --pointer-step 2").back().pointer_step, 2);
+}
+
+}  // namespace
+}  // namespace dtof
