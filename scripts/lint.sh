@@ -11,8 +11,9 @@ if [ "${1:-}" = "--rtl" ]; then
   exec /usr/bin/python3 scripts/lint_rtl.py --quick
 fi
 
-# The longest of the quick checks has a processor of its own.
+# The two longest of the quick checks run beside the others.
 scripts/schedule.py --check & schedule=$!
+scripts/check_types.py & types=$!
 
 mapfile -t sources < <(scripts/list_files.py .cpp .hpp driver/dtof.h driver/dtof.c examples/soc/software.h examples/soc/software.c)
 format=clang-format-$format_version
@@ -28,7 +29,6 @@ fi
 mapfile -t modules < <(scripts/list_files.py .py)
 /usr/bin/python3 -m pyflakes "${modules[@]}"
 echo "pyflakes: ${#modules[@]} files clean"
-scripts/check_types.py
 
 scripts/generate.py --check
 echo "readouts.toml, registers.toml: everything written from them is up to date"
@@ -39,6 +39,7 @@ scripts/check_house.py
 scripts/maturity.py --check
 echo "docs/reference/maturity.md: the stages are those of the lists of files and proofs"
 
+wait $types
 wait $schedule
 echo "engine's schedule: the page is that of the RTL"
 
