@@ -24,6 +24,7 @@
 #include "rtl/run_frame.hpp"
 #include "scoreboard/scoreboard.hpp"
 #include "tests/rtl/pool_surfaces.hpp"
+#include "tests/rtl/promised_values.hpp"
 #include "tests/rtl/rtl_test_support.hpp"
 
 namespace dtof {

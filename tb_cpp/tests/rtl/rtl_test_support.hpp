@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +10,6 @@
 #include <filesystem>
 #include <iterator>
 #include <ostream>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -88,17 +86,6 @@ inline testing::AssertionResult agrees_with_model(RtlReadout& rtl, std::span<con
     return testing::AssertionSuccess();
   }
   return testing::AssertionFailure() << report;
-}
-
-/// What the arrays of this program must hold of a parameter's promised values, in increasing order: all in a
-/// program of the long lane, both ends and one between them elsewhere.
-inline testing::Matcher<const std::set<int>&> hold(const std::vector<int>& promised) {
-#ifdef DTOF_EVERY_VALUE
-  return testing::IsSupersetOf(promised);
-#else
-  return testing::AllOf(testing::Contains(promised.front()), testing::Contains(promised.back()),
-                        testing::Contains(testing::AnyOfArray(promised.begin() + 1, promised.end() - 1)));
-#endif
 }
 
 /// Default options, with the waveform file that the environment requests.

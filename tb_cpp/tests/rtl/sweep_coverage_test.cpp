@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "tests/rtl/promised_values.hpp"
 #include "tests/rtl/rtl_test_support.hpp"
 
 namespace dtof {
