@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # C++ format; names and types in Python; what is written from readouts.toml; the engine's schedule; figures on README.md and docs/; the pictures
 # under reports/; links and pages of the documents; RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog.
-# --quick leaves out the RTL, which takes two minutes; --rtl leaves out everything else, and reads arrays of a thousand columns in Yosys alone.
+# --quick leaves out the RTL, which takes two minutes; --rtl, behind a build of the tests, leaves out everything else, and of the RTL what
+# scripts/lint_rtl.py --quick leaves out.
 # --static-analysis adds clang-tidy over all C++ (half an hour).
 set -euo pipefail
 format_version=14  # of clang-format: Debian 12's
