@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # make help       this list in groups, with minutes
 # make all        install what is missing, build, read one scene out through the RTL of every read-out, report (make alone does the same)
-# make test       every test and the lint
+# make test       every test and the lint; LINTED=1: make quick has run
 # make sim        the main job without the installation step
 # make report     build/report/index.html, all results on a page, and the main job's tables; make publish: reports/ has them
 # make study      one study, by NAME=scenes; make study-program: the program that most of them run
@@ -81,15 +81,14 @@ publish:
 
 test: configure
 	@scripts/install_packages.sh browser python clang
-	@scripts/lint.sh --quick
+	@$(if $(LINTED),,scripts/lint.sh --quick)
 	@ninja -C $(BUILD)
 	@scripts/lint.sh --rtl
 	@scripts/run_tests.sh $(BUILD)
 
-# What takes seconds: format, generated files, documents, stale figures.
+# What takes seconds: format, generated files, documents, stale figures, beside each other.
 quick: configure
-	@scripts/lint.sh --quick
-	@scripts/reports.py stale-check
+	@scripts/reports.py stale-check & stale=$$!; scripts/lint.sh --quick && wait $$stale
 
 # TARGETS="sim claims": some; OPTIONS=--quick, --again: scripts/try_targets.py --help
 try-targets:

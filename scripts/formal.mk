@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # make formal         proofs of formal/proofs.toml, each with planted bugs (25 minutes on two cores)
-#                     QUICK=1              those of two minutes, for CI
+#                     QUICK=1              the short ones, each with its first planted bug, for CI
 #                     PROOFS="minimum ..." some proofs (no report)
 .PHONY: formal
 formal:

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # C++ format; names and types in Python; what is written from readouts.toml; the engine's schedule; figures on README.md and docs/; the pictures
 # under reports/; links and pages of the documents; RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog.
-# --quick leaves out the RTL, which takes two minutes; --rtl leaves out everything else, and reads arrays of a thousand columns in Yosys alone.
+# --quick leaves out the RTL, which takes two minutes; --rtl, behind a build of the tests, leaves out everything else, and of the RTL what
+# scripts/lint_rtl.py --quick leaves out.
 # --static-analysis adds clang-tidy over all C++ (half an hour).
 set -euo pipefail
 format_version=14  # of clang-format: Debian 12's
@@ -11,8 +12,9 @@ if [ "${1:-}" = "--rtl" ]; then
   exec /usr/bin/python3 scripts/lint_rtl.py --quick
 fi
 
-# The longest of the quick checks has a processor of its own.
+# The two longest of the quick checks run beside the others.
 scripts/schedule.py --check & schedule=$!
+scripts/check_types.py & types=$!
 
 mapfile -t sources < <(scripts/list_files.py .cpp .hpp driver/dtof.h driver/dtof.c examples/soc/software.h examples/soc/software.c)
 format=clang-format-$format_version
@@ -28,7 +30,6 @@ fi
 mapfile -t modules < <(scripts/list_files.py .py)
 /usr/bin/python3 -m pyflakes "${modules[@]}"
 echo "pyflakes: ${#modules[@]} files clean"
-scripts/check_types.py
 
 scripts/generate.py --check
 echo "readouts.toml, registers.toml: everything written from them is up to date"
@@ -39,6 +40,7 @@ scripts/check_house.py
 scripts/maturity.py --check
 echo "docs/reference/maturity.md: the stages are those of the lists of files and proofs"
 
+wait $types
 wait $schedule
 echo "engine's schedule: the page is that of the RTL"
 

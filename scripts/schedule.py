@@ -27,7 +27,8 @@ OPERATIONS = {"decode": "a group", "choose": "a pixel", "decide": "a pixel"}  # 
 STRUCT = re.compile(r"typedef struct packed \{\n(.*?)\n *\} (\w+);", re.DOTALL)
 FIELD = re.compile(r"^ *(\w+)(?: \[(\d+):0\])? (\w+);(?: +// (.*))?$")
 WITH = "with "  # so begins the meaning of what goes with a command and is none itself
-SMALL = {"PIXELS_PER_SRAM": 48, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2}  # groups and pixels between others; two columns
+SMALL = {"SRAM_NUM": 2, "ENGINE_COLUMNS": 2}
+GROUPS = 3  # one between others
 # Frames without acquisitions: one operation after the other. The second one has a last frame to begin from.
 BENCH = """
 module schedule_bench;
@@ -104,7 +105,7 @@ def all_fields(known: dict[str, list[tuple[str, str, int, str]]]) -> list[Field]
 
 def simulated(configuration: Configuration) -> list[list[str]]:
     """Simulates a frame. Returns, for every clock, operation, pass, clock of the step, and commands."""
-    parameters = configuration.rtl_parameters() | SMALL
+    parameters = configuration.rtl_parameters() | SMALL | {"PIXELS_PER_SRAM": GROUPS * configuration["GROUP_SIZE"]}
     bench_text = BENCH.replace("PARAMETERS", ", ".join(f".{name}({value})" for name, value in parameters.items()))
     bench_text = bench_text.replace("ACQ_WIDTH'", f"{parameters['ACQ_WIDTH']}'")
     with tempfile.TemporaryDirectory() as folder:

@@ -36,5 +36,25 @@ class Replay(unittest.TestCase):
             self.assertEqual(formal.FAILED.findall(said), ["minimum_properties.a_smaller"])
 
 
+class Quick(unittest.TestCase):
+    """What --quick leaves out, and that it leaves out nothing else."""
+
+    def test_a_quick_run_has_each_quick_proof_its_goal_and_its_first_bug(self) -> None:
+        for proof in filter(lambda one: one.quick, formal.load_proofs()):
+            with self.subTest(proof.name):
+                quick, every = formal.jobs_of(proof, True), formal.jobs_of(proof)
+                self.assertEqual([job for job in every if job.kind == "bug"][:1], [job for job in quick if job.kind == "bug"])
+                self.assertEqual([job for job in every if job.kind == "goal"], [job for job in quick if job.kind == "goal"])
+                self.assertEqual([job.parameters for job in quick if job.kind == "prove"], proof.parameters)
+                self.assertEqual([job.parameters for job in every if job.kind == "prove"], [*proof.parameters, *proof.long_parameters])
+
+    def test_each_planted_bug_replaces_one_place_of_the_rtl(self) -> None:
+        """A quick run plants the first one alone, and only a run of all would miss the place of another."""
+        for proof in formal.load_proofs():
+            for bug in proof.bugs:
+                with self.subTest(proof.name, bug=bug.title):
+                    self.assertEqual((formal.HDL / bug.file).read_text(encoding="utf-8").count(bug.find), 1)
+
+
 if __name__ == "__main__":
     unittest.main()

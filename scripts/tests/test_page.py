@@ -7,6 +7,7 @@ import os
 import re
 import tempfile
 import unittest
+from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -22,6 +23,7 @@ from tests.moved_page import moved_page
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SCREENSHOTS = ROOT / "build" / "report_test"
+SIZES = ((1440, 900), (390, 844))  # a desk and a phone
 
 
 class Folder(unittest.TestCase):
@@ -246,6 +248,16 @@ class Pictures(Folder):
                          ["11 pictures under reports/, 10 are allowed"])
 
 
+@dataclass(frozen=True)
+class Visit:
+    """What a page did when it was opened at desk size, and then shown at phone size."""
+
+    complaints: list[str]
+    requests: list[str]
+    broken: list[str]  # pictures
+    widths: dict[int, int]  # of the page, by that of the window
+
+
 @unittest.skipIf(missing(), missing() or "")
 class InTheBrowser(unittest.TestCase):
     """Chromium shows the page of this tree, moved elsewhere."""
@@ -254,12 +266,14 @@ class InTheBrowser(unittest.TestCase):
     out: Path
     wrong: list[str]
     browser: Browser
+    visits: dict[Path, Visit]
 
     @classmethod
     def setUpClass(cls) -> None:
         cls.folder = tempfile.TemporaryDirectory()
         cls.out, cls.wrong = moved_page(Path(cls.folder.name))
         cls.browser = Browser()
+        cls.visits = {}
 
     @classmethod
     def tearDownClass(cls) -> None:
@@ -274,6 +288,18 @@ class InTheBrowser(unittest.TestCase):
         self.browser.open(page)
         return self.browser.complaints
 
+    def visit(self, page: Path) -> Visit:
+        """Opens the page, once for all tests."""
+        if page not in self.visits:
+            complaints = self.show(page, *SIZES[0])
+            broken = self.browser.evaluate("[...document.images].filter(i => !i.naturalWidth).map(i => i.src)")
+            widths = {}
+            for width, height in SIZES:
+                self.browser.window(width, height)
+                widths[width] = self.browser.evaluate("document.documentElement.scrollWidth")
+            self.visits[page] = Visit(list(complaints), list(self.browser.requests), broken, widths)
+        return self.visits[page]
+
     def test_every_link_and_anchor_of_every_page_resolves(self) -> None:
         self.assertEqual(self.wrong, [])
 
@@ -282,11 +308,10 @@ class InTheBrowser(unittest.TestCase):
         self.assertGreater(len(pages), len(sections.SHOWN))
         for page in pages:
             with self.subTest(page=str(page.relative_to(self.out))):
-                self.assertEqual(self.show(page), [])
-                for address in self.browser.requests:
+                visit = self.visit(page)
+                self.assertEqual((visit.complaints, visit.broken), ([], []))
+                for address in visit.requests:
                     self.assertTrue(address.startswith((self.out.as_uri(), "data:", "blob:")), address)
-                broken = self.browser.evaluate("[...document.images].filter(i => !i.naturalWidth).map(i => i.src)")
-                self.assertEqual(broken, [])
 
     def test_every_link_of_start_and_results_leads_where_the_browser_finds_it(self) -> None:
         addresses = []
@@ -310,10 +335,9 @@ class InTheBrowser(unittest.TestCase):
 
     def test_no_page_is_wider_than_a_phone_or_a_desk(self) -> None:
         for page in sorted(self.out.rglob("*.html")):
-            for width, height in ((390, 844), (1440, 900)):
+            for width, shown in self.visit(page).widths.items():
                 with self.subTest(page=str(page.relative_to(self.out)), width=width):
-                    self.show(page, width=width, height=height)
-                    self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+                    self.assertLessEqual(shown, width)
 
     def test_light_and_dark(self) -> None:
         papers = {}
@@ -338,7 +362,14 @@ class InTheBrowser(unittest.TestCase):
                                 "<script>throw new Error('thrown')</script>": "thrown",
                                 '<img src="none.png">': "ERR_FILE_NOT_FOUND"}.items():
             page.write_text(f"<!DOCTYPE html><title>x</title>{body}", encoding="utf-8")
-            self.assertTrue(any(re.search(complaint, said) for said in self.show(page)), body)
+            self.visits.pop(page, None)
+            self.assertTrue(any(re.search(complaint, said) for said in self.visit(page).complaints), body)
+        page.write_text('<!DOCTYPE html><title>x</title><p style="width: 500px">wide</p><img src="none.png">', encoding="utf-8")
+        del self.visits[page]
+        visit = self.visit(page)
+        self.assertGreater(visit.widths[390], 390)
+        self.assertEqual(len(visit.broken), 1)
+        del self.visits[page]
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 import importlib.util
 import unittest
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 _spec = importlib.util.spec_from_file_location("lint_rtl", ROOT / "scripts" / "lint_rtl.py")
@@ -48,6 +49,37 @@ class BlockRamTest(unittest.TestCase):
         found, cells = lint_rtl.block_rams("ecp5", "dtof_sram_1r1w", 2, 4)
         self.assertEqual(found, 0)
         self.assertTrue(cells)
+
+
+class QuickTest(unittest.TestCase):
+    """A quick run reads what a full run reads, each by fewer tools."""
+
+    def read(self, quick: bool) -> dict[str, tuple]:
+        """The tools that read each array and subsystem."""
+        found: dict[str, tuple] = {}
+
+        def check_read(what: str, top: str, parameters: dict[str, int], tools: tuple = lint_rtl.TOOLS) -> list[str]:
+            found[f"{what} {parameters}"] = tools
+            return []
+
+        with mock.patch.object(lint_rtl, "check_read", check_read):
+            for configuration in lint_rtl.load(ROOT / "configurations.toml").values():
+                lint_rtl.check_configuration(configuration, quick)
+            for top, settings, sentence in lint_rtl.parameter_limits():
+                if not sentence:
+                    lint_rtl.check_limit(top, settings, sentence, quick)
+            for readout in lint_rtl.subsystem_numbers():
+                lint_rtl.check_subsystem(readout, quick)
+        return found
+
+    def test_everything_is_read_by_some_tool(self) -> None:
+        whole, quick = self.read(False), self.read(True)
+        self.assertEqual(whole.keys(), quick.keys())
+        self.assertEqual(set(whole.values()), {lint_rtl.TOOLS})
+        self.assertTrue(all(quick.values()), quick)
+        for what, tools in quick.items():  # what no build verilates
+            if what.startswith("configuration pool") or (what.startswith("the legal") and "1024" not in what):
+                self.assertIn(lint_rtl.verilator, tools, what)
 
 
 if __name__ == "__main__":
