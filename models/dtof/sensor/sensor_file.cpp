@@ -266,12 +266,20 @@ constexpr auto kNumbers = std::to_array<NumberKey>({
      [](Draft& d, double v) { d.model.surroundings.other_laser.pulse_fwhm_s = v / kNano; },
      "that of the sensor's own", "full width at half maximum of its Gaussian pulse",
      "a pulse is shorter than the range"},
-    {"motion", "radial_velocity_m_per_s", Need::kWithSection, -1e4, kIncluded, 1e4, kReal,
-     [](Draft& d, double v) { d.model.surroundings.motion.velocity_m_per_s = v; }, "",
+    {"motion", "radial_velocity_m_per_s", Need::kNever, -1e4, kIncluded, 1e4, kReal,
+     [](Draft& d, double v) { d.model.surroundings.motion.velocity_m_per_s = v; }, "0",
      "of every target along its pixel's ray during the frame, above 0: away; its distance is that at the "
      "frame's "
      "middle",
      "faster than a bullet"},
+    {"motion", "columns_per_frame", Need::kNever, -1e3, kIncluded, 1e3, kReal,
+     [](Draft& d, double v) { d.model.surroundings.lateral.columns_per_frame = v; }, "0",
+     "how many of its columns the camera moves to the right during the frame, below 0: to the left; at the "
+     "frame's middle each pixel sees its own pixel of the scene",
+     "longer ways are several frames"},
+    {"motion", "rows_per_frame", Need::kNever, -1e3, kIncluded, 1e3, kReal,
+     [](Draft& d, double v) { d.model.surroundings.lateral.rows_per_frame = v; }, "0",
+     "how many of its rows the camera moves down during the frame, below 0: up", "longer ways are several frames"},
 });
 
 /// A key that is no number.
@@ -632,6 +640,10 @@ class SensorReader {
     require("laser", "firing_offset_seed", offsets.bits > 0, "firing_offset_bits above 0");
     require("laser", "firing_offset_bits", offsets.bits == 0 || offsets.step_s > 0.0,
             "firing_offset_step_ns");
+    if (root_.contains("motion") && find("motion", "radial_velocity_m_per_s") == nullptr &&
+        find("motion", "columns_per_frame") == nullptr && find("motion", "rows_per_frame") == nullptr) {
+      fail_in("motion", "[motion] has no radial_velocity_m_per_s, columns_per_frame or rows_per_frame");
+    }
     if (root_.contains("pane") && find("pane", "transmittance") == nullptr) {
       around.pane.transmittance = kClearGlass;
     }
