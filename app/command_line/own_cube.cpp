@@ -21,8 +21,8 @@ TransientScale scale_of(const CubeOptions& options, const TransientFile& file, c
         options.file));
   }
   if (*bin_width > sensor.integration_time_s) {
-    throw InputError(fmt::format("{}: a bin of {:g} s is longer than the sensor's range of {:g} s", options.file,
-                                 *bin_width, sensor.integration_time_s));
+    throw InputError(fmt::format("{}: a bin of {:g} s is longer than the sensor's range of {:g} s",
+                                 options.file, *bin_width, sensor.integration_time_s));
   }
   return {.bin_width_s = *bin_width,
           .start_s = options.start_s.value_or(file.start_s.value_or(0.0)),
@@ -32,9 +32,10 @@ TransientScale scale_of(const CubeOptions& options, const TransientFile& file, c
 }  // namespace
 
 void CubeOptions::add_to(CLI::App& group) {
-  group.add_option("--cube", file,
-                   "transient cube instead of a scene: NPY, NPZ or HDF5 of shape (rows, columns, time bins),\n"
-                   "events of a pixel and pulse in each bin, resampled to the array by nearest neighbour");
+  group.add_option(
+      "--cube", file,
+      "transient cube instead of a scene: NPY, NPZ or HDF5 of shape (rows, columns, time bins),\n"
+      "events of a pixel and pulse in each bin, resampled to the array by nearest neighbour");
   group
       .add_option("--cube-bin-width", bin_width_s,
                   "width of the cube's bins in s (default: bin_width_s in the file)")
@@ -43,8 +44,9 @@ void CubeOptions::add_to(CLI::App& group) {
                    "begin of the cube's first bin in s after the laser's shot (default: start_s in the file, "
                    "else 0)");
   group
-      .add_option("--cube-scale", events_per_unit,
-                  "detected events of a pixel and pulse that a value of 1 in the cube stands for (default: 1)")
+      .add_option(
+          "--cube-scale", events_per_unit,
+          "detected events of a pixel and pulse that a value of 1 in the cube stands for (default: 1)")
       ->check(above_zero());
 }
 
@@ -53,13 +55,14 @@ OwnMap read_own_cube(const CubeOptions& options, const SensorModel& sensor, int 
   const TransientFile file = read_transient_file(options.file);
   const TransientScale scale = scale_of(options, file, sensor);
   try {
-    OwnMap map{scene_from_transient_cube(file.array.shape, file.array.values, scale, sensor.pulse_fwhm_s, columns,
-                                         rows, reflectivity),
+    OwnMap map{scene_from_transient_cube(file.array.shape, file.array.values, scale, sensor.pulse_fwhm_s,
+                                         columns, rows, reflectivity),
                {}};
     const auto [width, height] = transient_cube_size(file.array.shape);
-    map.description = fmt::format(
-        "{} {} bins of {:g} ps.", resampling_sentence("Transient cube " + options.file, width, height, map.targets),
-        file.array.shape[2], scale.bin_width_s * kPicosecondsPerSecond);
+    map.description =
+        fmt::format("{} {} bins of {:g} ps.",
+                    resampling_sentence("Transient cube " + options.file, width, height, map.targets),
+                    file.array.shape[2], scale.bin_width_s * kPicosecondsPerSecond);
     return map;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", options.file, error.what()));

@@ -21,8 +21,8 @@ struct CubeOptions {
   void add_to(CLI::App& group);
 };
 
-/// Reads the cube and resamples it to columns x rows by nearest neighbour. Options win over what the file says
-/// of its time axis. Throws InputError that names the file.
+/// Reads the cube and resamples it to columns x rows by nearest neighbour. Options win over what the file
+/// says of its time axis. Throws InputError that names the file.
 OwnMap read_own_cube(const CubeOptions& options, const SensorModel& sensor, int columns, int rows,
                      double reflectivity);
 

@@ -64,8 +64,7 @@ constexpr double kLargestError = 0.25;
 
 /// What the pictures' titles say beside the read-out.
 std::string scene_sentence(const SensorModel& sensor, const FrameOptions& options) {
-  return fmt::format("{}, {} klux, sensor {}, engine {}",
-                     options.scene.name(), options.sensor.klux,
+  return fmt::format("{}, {} klux, sensor {}, engine {}", options.scene.name(), options.sensor.klux,
                      sensor.name, options.run.engine);
 }
 
@@ -133,14 +132,15 @@ std::string cycles_sentence(const std::vector<MeasuredFrame>& frames) {
 std::string first_return_sentence(const std::vector<MeasuredFrame>& frames) {
   std::vector<std::string> counts;
   for (const MeasuredFrame& frame : frames) {
-    counts.push_back(fmt::format("{} {}", readout_title(frame.parameters.readout),
-                                 frame.maps.figures.at_first_return));
+    counts.push_back(
+        fmt::format("{} {}", readout_title(frame.parameters.readout), frame.maps.figures.at_first_return));
   }
   const std::uint64_t pixels = frames.front().maps.figures.behind_another;
   return pixels == 0 ? ""
-                     : fmt::format("Pixels with a weaker return before the strongest one: {}. Results at this "
-                                   "first return (within 3 %): {}.\n\n",
-                                   pixels, fmt::join(counts, ", "));
+                     : fmt::format(
+                           "Pixels with a weaker return before the strongest one: {}. Results at this "
+                           "first return (within 3 %): {}.\n\n",
+                           pixels, fmt::join(counts, ", "));
 }
 
 /// What --precision came to; empty without it.
@@ -323,9 +323,9 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
   const std::string heading = fmt::format(
       "Scene {}: {} x {} pixels, {} klux, sensor {}, {}, {} photons, engine {}{}, seed "
       "{}.{}{}{}\n",
-      options.scene.name(), truth.width, truth.height,
-      options.sensor.klux, sensor.name, acquisitions_text(sensor, options), fidelity_name(fidelity),
-      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
+      options.scene.name(), truth.width, truth.height, options.sensor.klux, sensor.name,
+      acquisitions_text(sensor, options), fidelity_name(fidelity), options.run.engine,
+      options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
       judged.sentences(sensor), made.description.empty() ? "" : "\n", made.description);
   const std::string body =
       fmt::format("{}\n{}\n{}{}\n\n{}", heading, table.markdown(), cycles_sentence(frames),

@@ -72,8 +72,8 @@ void FrameScene::check(const CLI::App& command) const {
     throw InputError("--reflectivity and --reflectivity-map contradict each other: choose one");
   }
   if (own()) {
-    refuse_without_effect(
-        command, "--scene", fmt::format("{} takes its place", cube.file.empty() ? "--depth" : "--cube"));
+    refuse_without_effect(command, "--scene",
+                          fmt::format("{} takes its place", cube.file.empty() ? "--depth" : "--cube"));
   }
   if (own() || scene != "flat") {
     refuse_without_effect(command, "--distance", "only --scene flat has one distance");

@@ -71,8 +71,9 @@ SceneMap scene_of_cube(const InputArray<double>& events, double bin_width_s, dou
   const double* share = reflectivity ? std::get_if<double>(&*reflectivity) : nullptr;
   TargetMap targets = scene_from_transient_cube(
       shape, {events.data(), static_cast<std::size_t>(events.size())},
-      {.bin_width_s = bin_width_s, .start_s = start_s, .events_per_unit = events_per_unit}, whose.pulse_fwhm_s,
-      columns.value_or(width), rows.value_or(height), share == nullptr ? whose.default_reflectivity : *share);
+      {.bin_width_s = bin_width_s, .start_s = start_s, .events_per_unit = events_per_unit},
+      whose.pulse_fwhm_s, columns.value_or(width), rows.value_or(height),
+      share == nullptr ? whose.default_reflectivity : *share);
   if (reflectivity && share == nullptr) {
     set_reflectivities(targets, std::get<Map>(*reflectivity));
   }
@@ -128,8 +129,10 @@ void bind_scenes(py::module_& module) {
           "from_cube", &scene_of_cube, "events"_a, "bin_width_s"_a, py::kw_only(), "start_s"_a = 0.0,
           "events_per_unit"_a = 1.0, "sensor"_a = py::none(), "reflectivity"_a = py::none(),
           "columns"_a = py::none(), "rows"_a = py::none(),
-          "A scene from a transient cube: an array (rows, columns, time bins) of the mean detected events of a "
-          "pixel and pulse,\nas `dtof frame --cube` reads it. depth_m is the strongest return of each pixel, for "
+          "A scene from a transient cube: an array (rows, columns, time bins) of the mean detected events of "
+          "a "
+          "pixel and pulse,\nas `dtof frame --cube` reads it. depth_m is the strongest return of each pixel, "
+          "for "
           "the pulse of `sensor`; `reflectivity`\nscales the sunlight alone. Only the exact photon model has "
           "cubes.")
       .def_property_readonly("columns", [](const SceneMap& scene) { return scene.targets->columns(); })

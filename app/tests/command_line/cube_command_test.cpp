@@ -25,7 +25,8 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string kSmallFrame = "frame -r histogram,coarsehistogram --array-columns 6 --array-rows 5 --table none ";
+const std::string kSmallFrame =
+    "frame -r histogram,coarsehistogram --array-columns 6 --array-rows 5 --table none ";
 
 class CubeCommand : public test::IoTest {
  protected:
@@ -64,15 +65,17 @@ TEST_F(CubeCommand, ACubeIsAScene) {
   const Outcome outcome = dtof(kSmallFrame + "--cube cube.npz --out keys --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const auto result = nlohmann::json::parse(outcome.output);
-  EXPECT_THAT(result.at("heading").get<std::string>(),
-              HasSubstr("Transient cube cube.npz: 2 x 1 pixels, resampled to 6 x 5 by nearest neighbour. 400 bins "
-                        "of 100 ps."));
+  EXPECT_THAT(
+      result.at("heading").get<std::string>(),
+      HasSubstr("Transient cube cube.npz: 2 x 1 pixels, resampled to 6 x 5 by nearest neighbour. 400 bins "
+                "of 100 ps."));
   const auto& histogram = result.at("readouts").at(0);
   EXPECT_EQ(histogram.at("pixels"), 30);
   EXPECT_EQ(histogram.at("behind_another_return"), 15);
   EXPECT_LT(histogram.at("rmse_m"), 0.1);
-  EXPECT_THAT(contents(path("keys/summary.md")),
-              HasSubstr("Pixels with a weaker return before the strongest one: 15. Results at this first return"));
+  EXPECT_THAT(
+      contents(path("keys/summary.md")),
+      HasSubstr("Pixels with a weaker return before the strongest one: 15. Results at this first return"));
   // The options say the same as the archive's keys, and a scale is no more than a factor.
   write_cube("cube.npy", {1, 2, 400, 1}, two_returns());
   ASSERT_EQ(dtof(kSmallFrame + "--cube cube.npy --cube-bin-width 1e-10 --out options").exit_code, 0);
@@ -80,8 +83,9 @@ TEST_F(CubeCommand, ACubeIsAScene) {
   std::vector<double> doubled = two_returns();
   std::ranges::transform(doubled, doubled.begin(), [](double events) { return 2.0 * events; });
   write_cube("doubled.npy", {1, 2, 400}, doubled);
-  ASSERT_EQ(dtof(kSmallFrame + "--cube doubled.npy --cube-bin-width 1e-10 --cube-scale 0.5 --out scaled").exit_code,
-            0);
+  ASSERT_EQ(
+      dtof(kSmallFrame + "--cube doubled.npy --cube-bin-width 1e-10 --cube-scale 0.5 --out scaled").exit_code,
+      0);
   EXPECT_EQ(contents(path("keys/histogram.csv")), contents(path("scaled/histogram.csv")));
   // Another start is another distance.
   ASSERT_EQ(dtof(kSmallFrame + "--cube cube.npz --cube-start -5e-9 --out earlier").exit_code, 0);
@@ -111,7 +115,9 @@ TEST_F(CubeCommand, MalformedCubesHaveASentenceEach) {
   };
   const std::vector<MalformedCube> table = {
       {{2, 400}, two_returns(), "shape (2, 400): a transient cube has rows, columns and time bins"},
-      {{1, 1, 2, 2, 200}, two_returns(), "shape (1, 1, 2, 2, 200): a transient cube has rows, columns and time bins"},
+      {{1, 1, 2, 2, 200},
+       two_returns(),
+       "shape (1, 1, 2, 2, 200): a transient cube has rows, columns and time bins"},
       {{1, 2, 100, 4},
        two_returns(),
        "shape (1, 2, 100, 4): a transient cube has no colours; take one channel, or the mean of all"},
@@ -125,19 +131,23 @@ TEST_F(CubeCommand, MalformedCubesHaveASentenceEach) {
     expect_refused(frame, "a.npy: " + cube.sentence);
   }
   write_cube("a.npy", {1, 2, 400}, two_returns());
-  expect_refused(kSmallFrame + "--cube a.npy --out out",
-                 "a.npy: a transient cube needs the width of its bins: --cube-bin-width in s, or bin_width_s in the "
-                 "file");
+  expect_refused(
+      kSmallFrame + "--cube a.npy --out out",
+      "a.npy: a transient cube needs the width of its bins: --cube-bin-width in s, or bin_width_s in the "
+      "file");
   expect_refused(kSmallFrame + "--cube a.npy --cube-bin-width 100 --out out",
                  "a.npy: a bin of 100 s is longer than the sensor's range of 4.5e-08 s");
-  expect_refused(frame + " --cube-start -1e-6",
-                 "a.npy: column 0, row 0: the strongest return is at -146.888 m, before the laser's shot; see the "
-                 "cube's start");
-  expect_refused(frame + " --cube-scale 1e9",
-                 "pixel (column 0, row 0): 2e+11 mean events a frame are too many for a transient cube (at most "
-                 "1e+08); its scale is in detected events of a pixel and pulse");
+  expect_refused(
+      frame + " --cube-start -1e-6",
+      "a.npy: column 0, row 0: the strongest return is at -146.888 m, before the laser's shot; see the "
+      "cube's start");
+  expect_refused(
+      frame + " --cube-scale 1e9",
+      "pixel (column 0, row 0): 2e+11 mean events a frame are too many for a transient cube (at most "
+      "1e+08); its scale is in detected events of a pixel and pulse");
   write("b.txt", "1 2 3");
-  expect_refused(kSmallFrame + "--cube b.txt --out out", "b.txt: a transient cube is an NPY, NPZ or HDF5 file");
+  expect_refused(kSmallFrame + "--cube b.txt --out out",
+                 "b.txt: a transient cube is an NPY, NPZ or HDF5 file");
 }
 
 TEST_F(CubeCommand, OptionsThatDoNotFitACubeAreErrors) {
@@ -146,7 +156,8 @@ TEST_F(CubeCommand, OptionsThatDoNotFitACubeAreErrors) {
   expect_refused(frame + "--depth a.npy", "--depth and --cube contradict each other: choose one");
   expect_refused(frame + "--scene room", "--scene has no effect: --cube takes its place");
   expect_refused(frame + "--distance 2", "--distance has no effect: only --scene flat has one distance");
-  expect_refused(kSmallFrame + "--cube-scale 2 --out out", "--cube-bin-width, --cube-start and --cube-scale need --cube");
+  expect_refused(kSmallFrame + "--cube-scale 2 --out out",
+                 "--cube-bin-width, --cube-start and --cube-scale need --cube");
   EXPECT_THAT(dtof(frame + "--fidelity fast").output, HasSubstr("transient cube: use the exact one"));
   EXPECT_THAT(dtof(frame + "--fidelity analytic").output, HasSubstr("transient cube: use the exact one"));
   EXPECT_EQ(dtof(frame + "--fidelity auto").exit_code, 0);
@@ -157,7 +168,8 @@ TEST_F(CubeCommand, OptionsThatDoNotFitACubeAreErrors) {
 
 TEST_F(CubeCommand, AMovingCameraSeesAnEdgeInMorePixels) {
   const std::string frame =
-      "frame -r histogram --scene staircase --steps 2 --array-columns 12 --array-rows 4 --table none --klux 1 ";
+      "frame -r histogram --scene staircase --steps 2 --array-columns 12 --array-rows 4 --table none --klux "
+      "1 ";
   const Outcome still = dtof(frame + "--out still --json");
   const Outcome moved = dtof(frame + "--sensor thesis+camera-motion --out moved --json");
   ASSERT_EQ(still.exit_code, 0) << still.output;

@@ -34,7 +34,8 @@ struct FrameTruth {
   std::uint64_t dead = 0;            ///< dead pixels with a target in range; 0 with binning
 
   /// With a transient cube: distance of the first return, m, of each judged pixel whose first return is more
-  /// than kAnotherReturn nearer than its truth, the strongest return; NaN for the others. Empty without a cube.
+  /// than kAnotherReturn nearer than its truth, the strongest return; NaN for the others. Empty without a
+  /// cube.
   std::vector<float> first_return = {};
 
   static constexpr double kAnotherReturn = 0.1;  ///< share of the true distance

@@ -262,7 +262,8 @@ class FastPixelSampler final : public PixelSampler {
 FastPhotonSource::FastPhotonSource(PhotonSource exact) : exact_(std::move(exact)) {
   if (!supports(exact_)) {
     throw InputError(
-        "the fast photon model has no dead time, afterpulsing, binning, coincidence, measured pulse, TDC code "
+        "the fast photon model has no dead time, afterpulsing, binning, coincidence, measured pulse, TDC "
+        "code "
         "widths, surroundings or transient cube: use the exact one");
   }
 }

@@ -149,7 +149,8 @@ void PhotonSource::validate_cube() const {
   if (around.fog.extinction_per_m > 0.0 || around.pane.distance_m > 0.0 ||
       around.motion.velocity_m_per_s != 0.0) {
     throw InputError(
-        "a sensor with fog, pane or radial motion cannot see a transient cube, whose light has all scatterers "
+        "a sensor with fog, pane or radial motion cannot see a transient cube, whose light has all "
+        "scatterers "
         "in it and no distances");
   }
   for (int column = 0; column < columns(); ++column) {
@@ -157,10 +158,11 @@ void PhotonSource::validate_cube() const {
       const PixelRates mean = rates(column, row);
       const double events = (mean.signal + mean.background) * model_.acquisitions;
       if (!(events <= kMostEventsInMemory)) {
-        throw InputError(fmt::format(
-            "pixel (column {}, row {}): {:.3g} mean events a frame are too many for a transient cube (at most "
-            "{:.0g}); its scale is in detected events of a pixel and pulse",
-            column, row, events, kMostEventsInMemory));
+        throw InputError(
+            fmt::format("pixel (column {}, row {}): {:.3g} mean events a frame are too many for a transient "
+                        "cube (at most "
+                        "{:.0g}); its scale is in detected events of a pixel and pulse",
+                        column, row, events, kMostEventsInMemory));
       }
     }
   }
@@ -202,9 +204,7 @@ PhotonSource PhotonSource::at_frame(std::uint32_t frame) const {
   return copy;
 }
 
-PixelRates PhotonSource::rates(int column, int row) const {
-  return rates_from(column, row, column, row);
-}
+PixelRates PhotonSource::rates(int column, int row) const { return rates_from(column, row, column, row); }
 
 PixelReturns PhotonSource::returns(int column, int row) const {
   return returns_from(column, row, column, row);

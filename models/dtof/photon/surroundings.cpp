@@ -170,8 +170,8 @@ bool Surroundings::none() const {
 }
 
 bool Surroundings::signal_changes() const {
-  return motion.velocity_m_per_s != 0.0 || !lateral.none() || settling.silent_share != 0.0 || settling.power_drop != 0.0 ||
-         settling.delay_s != 0.0 || settling.power_drift != 0.0;
+  return motion.velocity_m_per_s != 0.0 || !lateral.none() || settling.silent_share != 0.0 ||
+         settling.power_drop != 0.0 || settling.delay_s != 0.0 || settling.power_drift != 0.0;
 }
 
 double Surroundings::two_way_transmittance(double distance_m) const {

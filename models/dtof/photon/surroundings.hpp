@@ -63,8 +63,8 @@ struct RadialMotion {
 };
 
 /// A camera that moves sideways during the frame: pulse by pulse each pixel looks at another place of
-/// the scene. At the frame's middle it looks at its own pixel of the scene. Between two pixels of the scene it
-/// sees both, by the areas that its square shares with them. Beyond its edge the scene goes on with its
+/// the scene. At the frame's middle it looks at its own pixel of the scene. Between two pixels of the scene
+/// it sees both, by the areas that its square shares with them. Beyond its edge the scene goes on with its
 /// outermost pixels.
 struct LateralMotion {
   double columns_per_frame = 0.0;  ///< above 0: to the right, so that the scene moves to the left

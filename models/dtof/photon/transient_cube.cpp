@@ -39,17 +39,20 @@ double TransientLight::events_before(double time) const {
 TransientCube::TransientCube(int columns, int rows, const TransientScale& scale)
     : columns_(columns), rows_(rows), scale_(scale) {
   if (columns < 1 || rows < 1) {
-    throw InputError(fmt::format("a transient cube must have at least 1 x 1 pixels, not {} x {}", columns, rows));
+    throw InputError(
+        fmt::format("a transient cube must have at least 1 x 1 pixels, not {} x {}", columns, rows));
   }
   // Written so that a NaN fails.
   if (!(scale.bin_width_s > 0.0) || !std::isfinite(scale.bin_width_s)) {
-    throw InputError(fmt::format("a transient cube's bin width must be above 0 s, not {}", scale.bin_width_s));
+    throw InputError(
+        fmt::format("a transient cube's bin width must be above 0 s, not {}", scale.bin_width_s));
   }
   if (!std::isfinite(scale.start_s)) {
     throw InputError(fmt::format("a transient cube's start must be a finite time, not {} s", scale.start_s));
   }
   if (!(scale.events_per_unit > 0.0) || !std::isfinite(scale.events_per_unit)) {
-    throw InputError(fmt::format("a transient cube's scale must be above 0 events, not {}", scale.events_per_unit));
+    throw InputError(
+        fmt::format("a transient cube's scale must be above 0 events, not {}", scale.events_per_unit));
   }
   pixels_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
 }
@@ -59,8 +62,8 @@ void TransientCube::set(int column, int row, std::span<const double> values) {
   std::size_t end = 0;
   for (std::size_t bin = 0; bin < values.size(); ++bin) {
     if (!(values[bin] >= 0.0) || !std::isfinite(values[bin] * scale_.events_per_unit)) {
-      throw InputError(fmt::format("column {}, row {}, bin {}: {} is not a finite number of at least 0", column,
-                                   row, bin, values[bin]));
+      throw InputError(fmt::format("column {}, row {}, bin {}: {} is not a finite number of at least 0",
+                                   column, row, bin, values[bin]));
     }
     if (values[bin] > 0.0) {
       if (end == 0) {
@@ -75,7 +78,8 @@ void TransientCube::set(int column, int row, std::span<const double> values) {
     light.cumulative.push_back(sum);
   }
   // A bin that is too small for the sum before it has no place in it.
-  while (light.cumulative.size() > 1 && light.cumulative.back() == light.cumulative[light.cumulative.size() - 2]) {
+  while (light.cumulative.size() > 1 &&
+         light.cumulative.back() == light.cumulative[light.cumulative.size() - 2]) {
     light.cumulative.pop_back();
   }
   if (!(sum > 0.0)) {
@@ -83,8 +87,8 @@ void TransientCube::set(int column, int row, std::span<const double> values) {
   } else if (!std::isfinite(sum)) {
     throw InputError(fmt::format("column {}, row {}: the sum of the bins overflows", column, row));
   }
-  pixels_[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(row)] =
-      std::move(light);
+  pixels_[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) +
+          static_cast<std::size_t>(row)] = std::move(light);
 }
 
 TransientLight TransientCube::light(int column, int row) const {
@@ -98,7 +102,8 @@ std::size_t TransientCube::window_bins(double window_s) const {
   return static_cast<std::size_t>(std::max(1.0, std::round(std::min(window_s / scale_.bin_width_s, 1e9))));
 }
 
-TransientReturn TransientCube::window_return(const Pixel& pixel, std::size_t begin, std::size_t length) const {
+TransientReturn TransientCube::window_return(const Pixel& pixel, std::size_t begin,
+                                             std::size_t length) const {
   const std::size_t end = std::min(begin + length, pixel.cumulative.size());
   double events = 0.0;
   double moment = 0.0;

@@ -81,7 +81,8 @@ class TransientCube {
     return pixels_[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) +
                    static_cast<std::size_t>(row)];
   }
-  [[nodiscard]] TransientReturn window_return(const Pixel& pixel, std::size_t begin, std::size_t length) const;
+  [[nodiscard]] TransientReturn window_return(const Pixel& pixel, std::size_t begin,
+                                              std::size_t length) const;
   [[nodiscard]] std::size_t window_bins(double window_s) const;
 
   int columns_;

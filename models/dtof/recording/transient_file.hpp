@@ -20,10 +20,10 @@ struct TransientFile {
   std::optional<double> start_s;      ///< left edge of the first bin; none: the file does not say
 };
 
-/// Reads a transient cube: an NPY file, or an array of an NPZ archive, an HDF5 file or a MATLAB file of version
-/// 7.3. `name` may name the array (container/array_address.hpp). Without a name the cube is the only array
-/// beside `bin_width_s`, `bin_width_ps` and `start_s`, which give the time axis. Throws InputError "<path>:
-/// <reason>".
+/// Reads a transient cube: an NPY file, or an array of an NPZ archive, an HDF5 file or a MATLAB file of
+/// version 7.3. `name` may name the array (container/array_address.hpp). Without a name the cube is the only
+/// array beside `bin_width_s`, `bin_width_ps` and `start_s`, which give the time axis. Throws InputError
+/// "<path>: <reason>".
 TransientFile read_transient_file(const std::string& name);
 
 }  // namespace dtof

@@ -192,7 +192,8 @@ std::array<int, 2> transient_cube_size(std::span<const std::size_t> shape) {
     throw InputError(fmt::format("shape ({}): a transient cube has rows, columns and time bins", text));
   }
   if (shape[0] < 1 || shape[0] > kMostPixels || shape[1] < 1 || shape[1] > kMostPixels || shape[2] < 1) {
-    throw InputError(fmt::format("shape ({}): a transient cube has 1 to {} rows and columns", text, kMostPixels));
+    throw InputError(
+        fmt::format("shape ({}): a transient cube has 1 to {} rows and columns", text, kMostPixels));
   }
   return {static_cast<int>(shape[1]), static_cast<int>(shape[0])};
 }
@@ -210,7 +211,8 @@ TargetMap scene_from_transient_cube(std::span<const std::size_t> shape, std::spa
   TargetMap map(columns, rows);
   auto cube = std::make_shared<TransientCube>(columns, rows, scale);
   // All values, also of pixels that the array does not have.
-  const auto wrong = std::ranges::find_if(values, [](double value) { return !(value >= 0.0) || std::isinf(value); });
+  const auto wrong =
+      std::ranges::find_if(values, [](double value) { return !(value >= 0.0) || std::isinf(value); });
   if (wrong != values.end()) {
     const auto index = static_cast<std::size_t>(wrong - values.begin());
     const std::size_t pixel = index / bins;
@@ -225,9 +227,10 @@ TargetMap scene_from_transient_cube(std::span<const std::size_t> shape, std::spa
       cube->set(column, row, values.subspan((y * static_cast<std::size_t>(width) + x) * bins, bins));
       const TransientReturn strongest = cube->strongest_return(column, row, pulse_fwhm_s);
       if (strongest.events > 0.0 && !(strongest.distance_m > 0.0)) {
-        throw InputError(fmt::format(
-            "column {}, row {}: the strongest return is at {:g} m, before the laser's shot; see the cube's start", x,
-            y, strongest.distance_m));
+        throw InputError(
+            fmt::format("column {}, row {}: the strongest return is at {:g} m, before the laser's shot; see "
+                        "the cube's start",
+                        x, y, strongest.distance_m));
       }
       map.at(column, row) = {.depth_m = strongest.distance_m, .reflectivity = reflectivity};
     }

@@ -279,7 +279,8 @@ constexpr auto kNumbers = std::to_array<NumberKey>({
      "longer ways are several frames"},
     {"motion", "rows_per_frame", Need::kNever, -1e3, kIncluded, 1e3, kReal,
      [](Draft& d, double v) { d.model.surroundings.lateral.rows_per_frame = v; }, "0",
-     "how many of its rows the camera moves down during the frame, below 0: up", "longer ways are several frames"},
+     "how many of its rows the camera moves down during the frame, below 0: up",
+     "longer ways are several frames"},
 });
 
 /// A key that is no number.

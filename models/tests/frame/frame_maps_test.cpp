@@ -6,8 +6,8 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
 #include <limits>
+#include <vector>
 
 namespace dtof {
 namespace {

@@ -84,8 +84,7 @@ TEST(FrameTruth, ACubeHasAFirstReturnBesideItsTruth) {
   sensor.pulse_fwhm_s = 0.5e-9;
   const FrameTruth truth = frame_truth(targets, sensor, columns, {.first = 0, .count = 1});
   EXPECT_THAT(truth.metres, ElementsAre(3.0F, 3.0F, 3.0F));
-  EXPECT_THAT(truth.first_return,
-              ElementsAre(testing::FloatNear(1.5064F, 1e-3F), IsNan(), IsNan()));
+  EXPECT_THAT(truth.first_return, ElementsAre(testing::FloatNear(1.5064F, 1e-3F), IsNan(), IsNan()));
 }
 
 TEST(Reachable, NeedsOneTargetInRange) {

@@ -113,9 +113,9 @@ TEST_F(LateralMotionTest, RowsMoveAsColumnsDo) {
 }
 
 TEST_F(LateralMotionTest, APixelSeesAreasThatAddUpToItsOwn) {
-  for (const LateralMotion& motion : {LateralMotion{.columns_per_frame = 5.5, .rows_per_frame = -2.25},
-                                      LateralMotion{.columns_per_frame = 0.3},
-                                      LateralMotion{.rows_per_frame = 7.0}}) {
+  for (const LateralMotion& motion :
+       {LateralMotion{.columns_per_frame = 5.5, .rows_per_frame = -2.25},
+        LateralMotion{.columns_per_frame = 0.3}, LateralMotion{.rows_per_frame = 7.0}}) {
     constexpr std::uint32_t kPulses = 97;
     const std::vector<SeenPixel> seen = seen_pixels(motion, kPulses);
     for (std::uint32_t i = 0; i < kPulses; ++i) {
@@ -135,8 +135,7 @@ TEST_F(LateralMotionTest, APixelSeesAreasThatAddUpToItsOwn) {
 TEST_F(LateralMotionTest, AnEvenSceneDoesNotChange) {
   around_.lateral = {.columns_per_frame = 20.0, .rows_per_frame = 30.0};
   around_.cover_glass = {.events = 0.05, .distance_m = 0.05};
-  const std::vector<double> still =
-      means(kBackground, {{0.3 / 4.0, bins(2.0)}, {0.05, bins(0.05)}});
+  const std::vector<double> still = means(kBackground, {{0.3 / 4.0, bins(2.0)}, {0.05, bins(0.05)}});
   EXPECT_GT(poisson_chi_square_p(counts(source(2.0)), still), kErrorRate);
   around_.fog = {.extinction_per_m = 0.25, .lidar_ratio_sr = 20.0, .overlap_m = 0.2};
   around_.pane = {.distance_m = 1.0, .reflectivity = 0.05, .transmittance = 0.8};

@@ -32,8 +32,8 @@ class TransientCubeTest : public SurroundingsTest {
   }
   /// A bin of a picosecond around the time of a distance.
   [[nodiscard]] PhotonSource bin_at(double distance_m, double events) const {
-    return cube_source({0.0, events, 0.0}, {.bin_width_s = kPicosecond,
-                                            .start_s = travel_s(distance_m) - 1.5 * kPicosecond});
+    return cube_source({0.0, events, 0.0},
+                       {.bin_width_s = kPicosecond, .start_s = travel_s(distance_m) - 1.5 * kPicosecond});
   }
 };
 
@@ -147,9 +147,9 @@ TEST_F(TransientCubeTest, SurroundingsOfTheSensorRemain) {
 }
 
 TEST_F(TransientCubeTest, DarkPixelsHaveTheBackgroundAlone) {
-  EXPECT_GT(poisson_chi_square_p(counts(cube_source({0.0, 0.0}, {.bin_width_s = 1e-9})),
-                                 means(kBackground, {})),
-            kErrorRate);
+  EXPECT_GT(
+      poisson_chi_square_p(counts(cube_source({0.0, 0.0}, {.bin_width_s = 1e-9})), means(kBackground, {})),
+      kErrorRate);
   sensor_.defects.dead_share = 1.0;
   EXPECT_TRUE(detections(bin_at(2.0, 0.1)).empty());
 }

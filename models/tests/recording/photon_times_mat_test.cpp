@@ -181,7 +181,8 @@ TEST_F(PhotonTimesTest, RefusalsOfHistogramsNameTheVariable) {
   mat_t* const file = Mat_CreateVer(path("h.mat").c_str(), nullptr, MAT_FT_MAT5);
   std::array<std::size_t, 3> dims = {1, 1, 2};
   std::array<double, 2> counts = {1.0, -1.0};
-  matvar_t* const cube = Mat_VarCreate("counts", MAT_C_DOUBLE, MAT_T_DOUBLE, 3, dims.data(), counts.data(), 0);
+  matvar_t* const cube =
+      Mat_VarCreate("counts", MAT_C_DOUBLE, MAT_T_DOUBLE, 3, dims.data(), counts.data(), 0);
   Mat_VarWrite(file, cube, MAT_COMPRESSION_NONE);
   Mat_VarFree(cube);
   Mat_Close(file);

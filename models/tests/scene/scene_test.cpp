@@ -330,7 +330,8 @@ TEST(TransientScene, HasTheStrongestReturnAsItsTruthAndIsResampled) {
   EXPECT_TRUE(scene_from_transient_cube(shape, events, scale, 1e-9, 3, 1, 0.0).returns_signal(1, 0));
   // A last axis of one element is no axis.
   const std::array<std::size_t, 4> channel = {1, 3, 6, 1};
-  EXPECT_EQ(scene_from_transient_cube(channel, events, scale, 1e-9, 3, 1).at(1, 0).depth_m, map.at(2, 0).depth_m);
+  EXPECT_EQ(scene_from_transient_cube(channel, events, scale, 1e-9, 3, 1).at(1, 0).depth_m,
+            map.at(2, 0).depth_m);
 }
 
 TEST(TransientScene, RefusesBadCubes) {
@@ -338,7 +339,8 @@ TEST(TransientScene, RefusesBadCubes) {
   const auto with = [&](std::vector<std::size_t> shape, std::vector<double> events) {
     return refusal([&] { (void)scene_from_transient_cube(shape, events, scale, 1e-9, 2, 2); });
   };
-  EXPECT_THAT(with({2, 2}, std::vector<double>(4)), HasSubstr("shape (2, 2): a transient cube has rows, columns"));
+  EXPECT_THAT(with({2, 2}, std::vector<double>(4)),
+              HasSubstr("shape (2, 2): a transient cube has rows, columns"));
   EXPECT_THAT(with({1, 1, 2, 3}, std::vector<double>(6)), HasSubstr("no colours"));
   EXPECT_THAT(with({0, 1, 2}, {}), HasSubstr("1 to 65535 rows and columns"));
   EXPECT_THAT(with({1, 1, 2}, std::vector<double>(3)), HasSubstr("cannot have 3 values"));
