@@ -64,11 +64,11 @@ TEST_F(LateralMotionTest, AStepEdgeMovesByTheCameraColumns) {
   }
 }
 
-TEST_F(LateralMotionTest, AWayThatIsAFifthLongerIsRejected) {
+TEST_F(LateralMotionTest, AWayThatIsTwiceAsLongIsRejected) {
   around_.lateral = {.columns_per_frame = 3.0};
   const PhotonSource source(sensor_, step_edge(), 14.0, test_seed());
   for (const int column : {kEdge - 2, kEdge - 1, kEdge, kEdge + 1}) {
-    EXPECT_LT(poisson_chi_square_p(column_counts(source, column), expected(share_behind(column, 3.6))),
+    EXPECT_LT(poisson_chi_square_p(column_counts(source, column), expected(share_behind(column, 6.0))),
               kErrorRate)
         << column;
   }
