@@ -174,9 +174,7 @@ std::span<const double> EventSampler::sample(const PixelReturns& returns, Counte
     }
   }
   returns_->draw(returns, further, further_);
-  add_further();
-  lose_and_add(random);
-  return std::span<const double>(events_).first(event_count_);
+  return with_further(random);
 }
 
 std::span<const double> EventSampler::sample(const MovingReturns& returns, CounterRandom random,
@@ -184,23 +182,23 @@ std::span<const double> EventSampler::sample(const MovingReturns& returns, Count
   walk_background(returns.own.rates.background * (gate_end_ - gate_begin_) / code_count_, random);
   signal_end_ = kFirst;
   returns_->draw(returns, further, further_);
-  add_further();
-  lose_and_add(random);
-  return std::span<const double>(events_).first(event_count_);
+  return with_further(random);
 }
 
 std::span<const SeenPixel> EventSampler::seen() const {
   return returns_ ? std::span<const SeenPixel>(returns_->seen()) : std::span<const SeenPixel>();
 }
 
-/// Merges all processes.
-void EventSampler::add_further() {
+/// The events of all processes together, after losses.
+std::span<const double> EventSampler::with_further(CounterRandom& random) {
   make_room(merged_, signal_end_ + further_.size());
   const auto merged = std::merge(signal_.begin(), signal_.begin() + static_cast<std::ptrdiff_t>(signal_end_),
                                  further_.begin(), further_.end(), merged_.begin());
   signal_end_ = static_cast<std::size_t>(merged - merged_.begin());
   std::swap(signal_, merged_);
   merge();
+  lose_and_add(random);
+  return std::span<const double>(events_).first(event_count_);
 }
 
 void EventSampler::lose_and_add(CounterRandom& random) {

@@ -54,7 +54,7 @@ class EventSampler {
   template <std::size_t kWords, typename Fast, typename Slow>
   void walk_pulses(double events, bool fast, CounterRandom& random, const Fast& fast_time,
                    const Slow& slow_time);
-  void add_further();
+  std::span<const double> with_further(CounterRandom& random);
   void merge();
   void walk_in_time_order(const PixelRates& rates, double background, CounterRandom& random);
   void lose_and_add(CounterRandom& random);

@@ -196,7 +196,7 @@ TEST(TransientReturns, TheStrongestReturnIsTheWindowWithTheMostEvents) {
   EXPECT_DOUBLE_EQ(strongest.events, 10.0);
   // A window of one bin has the highest bin.
   EXPECT_DOUBLE_EQ(cube.strongest_return(0, 0, 0.0).events, 6.0);
-  // Of two equal returns the earlier one.
+  // The earlier one of two equal returns.
   EXPECT_NEAR(pixel({0, 3, 0, 0, 3}).strongest_return(0, 0, 1e-9).distance_m, 1.5 * kMetresPerNs, 1e-9);
   EXPECT_EQ(pixel({0, 0, 0}).strongest_return(0, 0, 1e-9).distance_m, 0.0);
 }
