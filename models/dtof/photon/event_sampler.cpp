@@ -301,8 +301,7 @@ void EventSampler::walk_light(const TransientLight& light, CounterRandom& random
       });
 }
 
-/// Walks the events of all pulses. An event takes kWords words: one for the gap, the others for its time,
-/// which is `fast_time` of the words if that can decide it, else `slow_time`.
+/// Walks all pulses. An event takes kWords words: one for its gap, the others for `fast_time`, if that decides.
 template <std::size_t kWords, typename Fast, typename Slow>
 void EventSampler::walk_pulses(double events, bool fast, CounterRandom& random, const Fast& fast_time,
                                const Slow& slow_time) {
