@@ -301,7 +301,7 @@ void EventSampler::walk_light(const TransientLight& light, CounterRandom& random
       });
 }
 
-/// Walks all pulses. An event takes kWords words: one for its gap, the others for `fast_time`, if that decides.
+/// Walks all pulses. An event takes kWords words: one for its gap, the others for `fast_time`, if it decides.
 template <std::size_t kWords, typename Fast, typename Slow>
 void EventSampler::walk_pulses(double events, bool fast, CounterRandom& random, const Fast& fast_time,
                                const Slow& slow_time) {
