@@ -145,9 +145,8 @@ TEST_F(CubeCommand, MalformedCubesHaveASentenceEach) {
       frame + " --cube-scale 1e9",
       "pixel (column 0, row 0): 2e+11 mean events a frame are too many for a transient cube (at most "
       "1e+08); its scale is in detected events of a pixel and pulse");
-  write("b.txt", "1 2 3");
-  expect_refused(kSmallFrame + "--cube b.txt --out out",
-                 "b.txt: a transient cube is an NPY, NPZ or HDF5 file");
+  expect_refused(kSmallFrame + "--cube " + write("b.txt", "1 2 3").string() + " --out out",
+                 path("b.txt").string() + ": a transient cube is an NPY, NPZ or HDF5 file");
 }
 
 TEST_F(CubeCommand, OptionsThatDoNotFitACubeAreErrors) {

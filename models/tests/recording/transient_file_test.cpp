@@ -103,8 +103,7 @@ TEST_F(TransientFileTest, RefusesWhatIsNotOneCube) {
   two.add("bin_width_s", std::vector<std::size_t>{2}, std::vector<double>{1e-11, 1e-11});
   two.commit();
   refused("b.npz", "bin_width_s has 2 numbers instead of one");
-  write("a.png", "\x89PNG");
-  refused("a.png", "a transient cube is an NPY, NPZ or HDF5 file");
+  refused(write("a.png", "\x89PNG").filename().string(), "a transient cube is an NPY, NPZ or HDF5 file");
   refused("none.npy", "cannot read: No such file or directory");
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/physical_constants.hpp"
 
 namespace dtof {
 namespace {
