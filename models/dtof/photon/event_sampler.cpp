@@ -289,12 +289,12 @@ void EventSampler::walk_light(const TransientLight& light, CounterRandom& random
   const double sigma = sigma_;
   walk_pulses<3>(
       light.events(), !response_, random,
-      [&normal, &light, sigma](const std::uint64_t* words) {
+      [&normal, light, sigma](const std::uint64_t* words) {
         const Ziggurat::Draw deviation = normal.draw(words[0]);
         return Ziggurat::Draw{light.quantile(uniform_of(words[1])) + sigma * deviation.value,
                               deviation.decided};
       },
-      [this, &light, sigma](Bits64& bits) {
+      [this, light, sigma](Bits64& bits) {
         const double deviation =
             response_ ? response_->quantile(draw_uniform(bits)) : sigma * draw_normal(bits);
         return light.quantile(draw_uniform(bits)) + deviation;

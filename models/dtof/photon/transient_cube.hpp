@@ -22,13 +22,13 @@ struct TransientLight {
   [[nodiscard]] double events_before(double time) const;
   /// Time before which `share` (0 .. below 1) of the events lie. Requires light.
   [[nodiscard]] double quantile(double share) const {
-    const double events = share * cumulative.back();
-    const std::size_t last = cumulative.size() - 1;
-    std::size_t bin = 0;
-    if (last > 0) {
-      const auto found = std::upper_bound(cumulative.begin(), cumulative.end(), events);
-      bin = std::min(static_cast<std::size_t>(found - cumulative.begin()), last);
+    if (cumulative.size() == 1) {
+      return begin + bin_width * share;
     }
+    const double events = share * cumulative.back();
+    const auto found = std::upper_bound(cumulative.begin(), cumulative.end(), events);
+    const std::size_t bin =
+        std::min(static_cast<std::size_t>(found - cumulative.begin()), cumulative.size() - 1);
     const double before = bin == 0 ? 0.0 : cumulative[bin - 1];
     return begin + bin_width * (static_cast<double>(bin) + (events - before) / (cumulative[bin] - before));
   }
