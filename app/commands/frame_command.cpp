@@ -16,8 +16,8 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
-#include "command_line/own_map.hpp"
 #include "commands/commands.hpp"
+#include "commands/frame_scene.hpp"
 #include "commands/json_result.hpp"
 #include "commands/optional_output.hpp"
 #include "dtof/analytic/fidelity.hpp"
@@ -33,7 +33,6 @@
 #include "dtof/report/colour_png.hpp"
 #include "dtof/report/ply.hpp"
 #include "dtof/report/table.hpp"
-#include "dtof/scene/scene.hpp"
 #include "run/readout_run.hpp"
 #include "run/region.hpp"
 
@@ -44,13 +43,7 @@ struct FrameOptions {
   ReadoutOptions readout;
   RunSettings run;
   SensorOptions sensor;
-  std::string scene = "room";
-  MapFiles maps;
-  MapScales map_scales;
-  SceneParameters scene_parameters;
-  std::optional<int> array_columns;
-  std::optional<int> array_rows;
-  std::optional<double> reflectivity;
+  FrameScene scene;
   std::string table = "flat";
   std::optional<double> precision_percent;
   int most_frames = 1000;
@@ -60,81 +53,6 @@ struct FrameOptions {
   bool json = false;
   std::string command_line;
 };
-
-/// "flat, staircase, ..."
-std::string scene_names() {
-  std::vector<std::string_view> names;
-  names.reserve(kAllScenes.size());
-  for (const Scene scene : kAllScenes) {
-    names.push_back(scene_name(scene));
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-OwnMap make_targets(const FrameOptions& options, const SensorModel& sensor) {
-  SceneParameters parameters = options.scene_parameters;
-  parameters.columns = options.array_columns.value_or(sensor.columns);
-  parameters.rows = options.array_rows.value_or(sensor.rows);
-  parameters.reflectivity = options.reflectivity.value_or(sensor.default_reflectivity);
-  if (!options.maps.depth.empty()) {
-    return read_own_map(options.maps, options.map_scales, parameters.columns, parameters.rows,
-                        parameters.reflectivity);
-  }
-  OwnMap scene{make_scene(parse_scene(options.scene), parameters), {}};
-  if (!options.maps.reflectivity.empty()) {
-    scene.description = apply_reflectivity_map(scene.targets, options.maps.reflectivity, options.map_scales);
-  }
-  return scene;
-}
-
-void validate_maps(const FrameOptions& options) {
-  if (options.maps.depth.empty() && options.map_scales.metres_per_unit) {
-    throw InputError("--depth-scale needs --depth");
-  }
-  if (options.maps.reflectivity.empty() && options.map_scales.reflectivity_per_unit) {
-    throw InputError("--reflectivity-scale needs --reflectivity-map");
-  }
-  if (!options.maps.reflectivity.empty() && options.reflectivity) {
-    throw InputError("--reflectivity and --reflectivity-map contradict each other: choose one");
-  }
-}
-
-/// What the scene's own options need, as far as it does not depend on the sensor.
-void check_scene_options(const CLI::App& command, const FrameOptions& options) {
-  if (!options.maps.depth.empty()) {
-    refuse_without_effect(command, "--scene", "--depth takes its place");
-  }
-  const bool own = options.maps.depth.empty();
-  const bool slope = own && (options.scene == "staircase" || options.scene == "plane");
-  if (!own || options.scene != "flat") {
-    refuse_without_effect(command, "--distance", "only --scene flat has one distance");
-  }
-  if (!slope) {
-    refuse_without_effect(command, "--near", "only --scene staircase and plane have a near and a far end");
-    refuse_without_effect(command, "--far", "only --scene staircase and plane have a near and a far end");
-  }
-  if (!own || options.scene != "staircase") {
-    refuse_without_effect(command, "--steps", "only --scene staircase has steps");
-  }
-  if (!options.precision_percent) {
-    refuse_without_effect(command, "--max-frames", "it ends what --precision asks for");
-  }
-  options.sensor.refuse_options_without_effect(command);
-}
-
-/// The scene's distances are ones that the sensor can measure.
-void check_distances(const FrameOptions& options, const SensorModel& sensor) {
-  if (!options.maps.depth.empty()) {
-    return;
-  }
-  const SceneParameters& parameters = options.scene_parameters;
-  if (options.scene == "flat") {
-    SensorOptions::require_in_range(sensor, parameters.distance_m, "--distance");
-  } else if (options.scene == "staircase" || options.scene == "plane") {
-    SensorOptions::require_in_range(sensor, parameters.near_m, "--near");
-    SensorOptions::require_in_range(sensor, parameters.far_m, "--far");
-  }
-}
 
 /// A map of the region, in m.
 DepthImage region_map(const Region& region, const std::vector<float>& metres) {
@@ -146,8 +64,7 @@ constexpr double kLargestError = 0.25;
 
 /// What the pictures' titles say beside the read-out.
 std::string scene_sentence(const SensorModel& sensor, const FrameOptions& options) {
-  return fmt::format("{}, {} klux, sensor {}, engine {}",
-                     options.maps.depth.empty() ? options.scene : options.maps.depth, options.sensor.klux,
+  return fmt::format("{}, {} klux, sensor {}, engine {}", options.scene.name(), options.sensor.klux,
                      sensor.name, options.run.engine);
 }
 
@@ -208,6 +125,22 @@ std::string cycles_sentence(const std::vector<MeasuredFrame>& frames) {
   const bool one = arrays.size() == 1;
   return fmt::format("Cycles: clocks of a frame in an array of {}{}.\n\n", fmt::join(arrays, ", or "),
                      one ? "" : ", as it is simulated");
+}
+
+/// How often each read-out measured the first of several returns; empty if no pixel has another return before
+/// its truth.
+std::string first_return_sentence(const std::vector<MeasuredFrame>& frames) {
+  std::vector<std::string> counts;
+  for (const MeasuredFrame& frame : frames) {
+    counts.push_back(
+        fmt::format("{} {}", readout_title(frame.parameters.readout), frame.maps.figures.at_first_return));
+  }
+  const std::uint64_t pixels = frames.front().maps.figures.behind_another;
+  return pixels == 0 ? ""
+                     : fmt::format(
+                           "Pixels with a weaker return before the strongest one: {}. Results at this "
+                           "first return (within 3 %): {}.\n\n",
+                           pixels, fmt::join(counts, ", "));
 }
 
 /// What --precision came to; empty without it.
@@ -288,6 +221,10 @@ nlohmann::ordered_json json_readouts(const std::vector<MeasuredFrame>& frames) {
       readout["share_above_3_percent"] = summary.share_above_3_percent;
       readout["share_above_10_percent"] = summary.share_above_10_percent;
       readout["without_distance"] = frame.maps.figures.without_distance;
+      if (frame.maps.figures.behind_another > 0) {
+        readout["behind_another_return"] = frame.maps.figures.behind_another;
+        readout["at_first_return"] = frame.maps.figures.at_first_return;
+      }
     }
     readouts.push_back(std::move(readout));
   }
@@ -337,12 +274,9 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
     throw InputError("--trace shows one frame, --precision takes many: choose one");
   }
   const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
-  validate_maps(options);
-  check_distances(options, sensor);
-  check_frame_memory(sensor, options.array_rows.value_or(sensor.rows));
-  OwnMap made = make_targets(options, sensor);
-  const bool own = !options.maps.depth.empty();
-  require_reachable(made.targets, sensor, own ? options.maps.depth : "--scene " + options.scene, own);
+  options.scene.check_distances(sensor);
+  check_frame_memory(sensor, options.scene.array_rows.value_or(sensor.rows));
+  OwnMap made = options.scene.targets(sensor);
   const PhotonSource scene(sensor, std::move(made.targets), options.sensor.klux, options.run.seed);
   const ProgramEngine engine(options.run, options.command_line);
   const Fidelity fidelity = photon_model(options, readouts, scene, engine);
@@ -385,17 +319,17 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
     seconds += frame.run.seconds;
   }
   const Table table = summarise(frames, options);
-  const std::string precision = precision_sentence(frames, options);
+  const std::string returns = first_return_sentence(frames) + precision_sentence(frames, options);
   const std::string heading = fmt::format(
       "Scene {}: {} x {} pixels, {} klux, sensor {}, {}, {} photons, engine {}{}, seed "
       "{}.{}{}{}\n",
-      options.maps.depth.empty() ? options.scene : options.maps.depth, truth.width, truth.height,
-      options.sensor.klux, sensor.name, acquisitions_text(sensor, options), fidelity_name(fidelity),
-      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
+      options.scene.name(), truth.width, truth.height, options.sensor.klux, sensor.name,
+      acquisitions_text(sensor, options), fidelity_name(fidelity), options.run.engine,
+      options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
       judged.sentences(sensor), made.description.empty() ? "" : "\n", made.description);
   const std::string body =
       fmt::format("{}\n{}\n{}{}\n\n{}", heading, table.markdown(), cycles_sentence(frames),
-                  table_sentence(rule, sensor, options.run.seed), precision);
+                  table_sentence(rule, sensor, options.run.seed), returns);
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
   write_file(std::filesystem::path(options.out) / "summary.md",
              fmt::format("{}Command: `{}`\n", body, options.command_line));
@@ -411,30 +345,7 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "frame", "One frame of a scene: photons, TDC stream, read-out, depth map with errors");
-  auto* scene = command->add_option_group("scene");
-  scene->add_option("--scene", options->scene, scene_names())->capture_default_str();
-  scene->add_option(
-      "--depth", options->maps.depth,
-      "depth map instead of a scene: PNG of 8 or 16 bits, PFM or NPY (rows, columns), resampled\n"
-      "to the array by nearest neighbour");
-  scene->add_option("--reflectivity-map", options->maps.reflectivity,
-                    "reflectivity of each pixel, for a scene or a depth map: PNG, PFM or NPY of any size");
-  options->map_scales.add_to(*scene);
-  scene->add_option("--array-columns", options->array_columns, "columns of the array (default: the sensor's)")
-      ->check(CLI::Range(1, 4096));
-  scene
-      ->add_option("--array-rows", options->array_rows,
-                   "rows of the array, pixels per column (default: the sensor's)")
-      ->check(CLI::Range(1, 4096));
-  scene->add_option("--distance", options->scene_parameters.distance_m, "flat: distance in m")
-      ->capture_default_str();
-  scene->add_option("--near", options->scene_parameters.near_m, "staircase, plane: near end in m")
-      ->capture_default_str();
-  scene->add_option("--far", options->scene_parameters.far_m, "staircase, plane: far end in m")
-      ->capture_default_str();
-  scene->add_option("--steps", options->scene_parameters.steps, "staircase: steps")->capture_default_str();
-  scene->add_option("--reflectivity", options->reflectivity, "of every surface (default: the sensor's)")
-      ->check(sensible_reflectivity());
+  options->scene.add_to(*command);
   command
       ->add_option("--table", options->table,
                    "host look-up table: flat (each read-out's own, fitted on flat targets of the sensor's\n"
@@ -463,7 +374,11 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
                       "also write the TDC stream of the whole array as CSV, for `dtof replay`");
   JsonResult::add_to(*command, options->json);
   command->callback([options, command] {
-    check_scene_options(*command, *options);
+    options->scene.check(*command);
+    if (!options->precision_percent) {
+      refuse_without_effect(*command, "--max-frames", "it ends what --precision asks for");
+    }
+    options->sensor.refuse_options_without_effect(*command);
     // A recording must give the same results when it is replayed.
     options->run.streams_only = !options->record.empty();
     JsonResult result(options->json, "frame", options->command_line);

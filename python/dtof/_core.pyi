@@ -80,6 +80,10 @@ class Scene:
     @staticmethod
     def from_depth(depth_m: npt.ArrayLike, reflectivity: float | npt.ArrayLike = ..., *, columns: int | None = ...,
                    rows: int | None = ...) -> Scene: ...
+    @staticmethod
+    def from_cube(events: npt.ArrayLike, bin_width_s: float, *, start_s: float = ..., events_per_unit: float = ...,
+                  sensor: Sensor | None = ..., reflectivity: float | npt.ArrayLike | None = ..., columns: int | None = ...,
+                  rows: int | None = ...) -> Scene: ...
     @property
     def columns(self) -> int: ...
     @property

@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -59,6 +60,26 @@ SceneMap scene_of_depth(const Map& depth, const Reflectivity& reflectivity, cons
   return {std::move(targets), "depth map"};
 }
 
+SceneMap scene_of_cube(const InputArray<double>& events, double bin_width_s, double start_s,
+                       double events_per_unit, const std::optional<SensorModel>& sensor,
+                       const std::optional<Reflectivity>& reflectivity, const std::optional<int>& columns,
+                       const std::optional<int>& rows) {
+  const std::vector<std::size_t> shape(events.shape(), events.shape() + events.ndim());
+  const auto [width, height] = transient_cube_size(shape);
+  const SensorModel thesis;
+  const SensorModel& whose = sensor ? *sensor : thesis;
+  const double* share = reflectivity ? std::get_if<double>(&*reflectivity) : nullptr;
+  TargetMap targets = scene_from_transient_cube(
+      shape, {events.data(), static_cast<std::size_t>(events.size())},
+      {.bin_width_s = bin_width_s, .start_s = start_s, .events_per_unit = events_per_unit},
+      whose.pulse_fwhm_s, columns.value_or(width), rows.value_or(height),
+      share == nullptr ? whose.default_reflectivity : *share);
+  if (reflectivity && share == nullptr) {
+    set_reflectivities(targets, std::get<Map>(*reflectivity));
+  }
+  return {std::move(targets), "transient cube"};
+}
+
 SceneMap scene_of_name(const std::string& name, const std::optional<SensorModel>& sensor,
                        const std::optional<int>& columns, const std::optional<int>& rows,
                        const std::optional<Reflectivity>& reflectivity, double distance_m, double near_m,
@@ -104,6 +125,16 @@ void bind_scenes(py::module_& module) {
           "columns"_a = py::none(), "rows"_a = py::none(),
           "A scene from your own depth map: an array (rows, columns) in m, taken as float32; 0, NaN and "
           "infinity are unknown.\nWith `columns` and `rows` it is resampled by nearest neighbour.")
+      .def_static(
+          "from_cube", &scene_of_cube, "events"_a, "bin_width_s"_a, py::kw_only(), "start_s"_a = 0.0,
+          "events_per_unit"_a = 1.0, "sensor"_a = py::none(), "reflectivity"_a = py::none(),
+          "columns"_a = py::none(), "rows"_a = py::none(),
+          "A scene from a transient cube: an array (rows, columns, time bins) of the mean detected events of "
+          "a "
+          "pixel and pulse,\nas `dtof frame --cube` reads it. depth_m is the strongest return of each pixel, "
+          "for "
+          "the pulse of `sensor`; `reflectivity`\nscales the sunlight alone. Only the exact photon model has "
+          "cubes.")
       .def_property_readonly("columns", [](const SceneMap& scene) { return scene.targets->columns(); })
       .def_property_readonly("rows", [](const SceneMap& scene) { return scene.targets->rows(); })
       .def_readonly("name", &SceneMap::name)

@@ -53,6 +53,28 @@ class ArrayTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "beyond the sensor's range"):
             dtof.frame(dtof.Scene.from_depth(np.full((2, 2), 50.0)))
 
+    def test_a_cube_is_a_scene(self) -> None:
+        events = np.zeros((2, 3, 400), np.float32)
+        events[:, :, 200] = 0.3 / 9
+        events[0, 1, 100] = 0.02
+        events[1, 2] = 0.0
+        scene = dtof.Scene.from_cube(events, 100e-12)
+        self.assertEqual((scene.columns, scene.rows), (3, 2))
+        strongest = 0.5 * 299792458.0 * 200.5 * 100e-12
+        wanted = np.full((2, 3), strongest)
+        wanted[1, 2] = 0.0
+        np.testing.assert_allclose(scene.depth_m, wanted, rtol=1e-12)
+        frame = dtof.frame(scene, readouts=["histogram"])
+        self.assertTrue(np.isnan(frame.truth_m[1, 2]))
+        for broken, sentence in [(events[0], "rows, columns and time bins"), (-events, "column 1, row 0, bin 100: -0.0199"),
+                                 (np.full((1, 1, 2), np.nan), "nan is not a finite number")]:
+            with self.subTest(sentence), self.assertRaisesRegex(ValueError, sentence):
+                dtof.Scene.from_cube(broken, 100e-12)
+        with self.assertRaisesRegex(ValueError, "bin width must be above 0 s"):
+            dtof.Scene.from_cube(events, 0.0)
+        with self.assertRaisesRegex(ValueError, "transient cube: use the exact one"):
+            dtof.photons(scene, dtof.Sensor("thesis"), fidelity="fast")
+
     def test_column_events_are_those_of_the_stream(self) -> None:
         photons = dtof.photons(dtof.Scene("room", columns=3, rows=4), dtof.Sensor("thesis"))
         events = photons.events()

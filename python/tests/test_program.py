@@ -109,6 +109,17 @@ class ProgramTest(unittest.TestCase):
                      "--array-columns", 12, "--array-rows", 16)
         np.testing.assert_array_equal(dtof.read_depth(str(self.out / "depth.npy")), np.nan_to_num(depth).astype(np.float32))
 
+    def test_own_cube(self) -> None:
+        random = np.random.default_rng(6)
+        events = np.zeros((7, 9, 300))
+        rows, columns = np.indices((7, 9))
+        for share in (0.02, 0.05):
+            events[rows, columns, random.integers(20, 280, (7, 9))] += share * random.uniform(0.5, 1.0, (7, 9))
+        np.savez(self.out / "cube.npz", cube=events, bin_width_s=100e-12, start_s=2e-9)
+        scene = dtof.Scene.from_cube(events, 100e-12, start_s=2e-9, columns=12, rows=16)
+        frame = dtof.frame(scene, readouts=["sifh", "hispointer"])
+        self.compare(frame, "--cube", self.out / "cube.npz", "--array-columns", 12, "--array-rows", 16)
+
     def test_own_sensor_file(self) -> None:
         text = dtof.preset_text("phone").replace("columns = ", "columns = 12 # ").replace("rows = ", "rows = 10 # ")
         (self.out / "mine.toml").write_text(text, encoding="utf-8")

@@ -8,14 +8,18 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bench/small_option.hpp"
 #include "dtof/analytic/code_distribution.hpp"
 #include "dtof/analytic/fidelity.hpp"
 #include "dtof/core/parallel.hpp"
+#include "dtof/core/physical_constants.hpp"
 #include "dtof/photon/photon_source.hpp"
 #include "dtof/readout/run_frame.hpp"
 #include "dtof/scene/scene.hpp"
@@ -41,15 +45,34 @@ PhotonSource full_frame(const SensorModel& sensor, Scene scene) {
   return {sensor, make_scene(scene, {}), 14.0, 1};
 }
 
+/// The same light as a transient cube with one return of each pixel, in one bin of 10 ps.
+PhotonSource cube_frame(const SensorModel& sensor, Scene scene) {
+  constexpr double kBinWidth = 10e-12;
+  TargetMap targets = make_scene(scene, {});
+  auto cube = std::make_shared<TransientCube>(targets.columns(), targets.rows(),
+                                              TransientScale{.bin_width_s = kBinWidth});
+  std::vector<double> events(static_cast<std::size_t>(sensor.integration_time_s / kBinWidth));
+  for (int column = 0; column < targets.columns(); ++column) {
+    for (int row = 0; row < targets.rows(); ++row) {
+      const PixelTarget& target = targets.at(column, row);
+      double& bin = events.at(static_cast<std::size_t>(2.0 * target.depth_m / kSpeedOfLight / kBinWidth));
+      bin = sensor.signal_events(target.depth_m, target.reflectivity);
+      cube->set(column, row, events);
+      bin = 0.0;
+    }
+  }
+  targets.set_cube(std::move(cube));
+  return {sensor, std::move(targets), 14.0, 1};
+}
+
 void set_rate(benchmark::State& state, std::uint64_t detections) {
   state.counters["detections/s"] =
       benchmark::Counter(static_cast<double>(detections), benchmark::Counter::kIsRate);
 }
 
 /// Streams of all columns, not read.
-void photons(benchmark::State& state, const SensorModel& sensor, Fidelity fidelity, Scene scene,
-             int threads) {
-  const auto source = make_source(fidelity, full_frame(sensor, scene));
+void photons(benchmark::State& state, const PhotonSource& exact, Fidelity fidelity, int threads) {
+  const auto source = make_source(fidelity, exact);
   std::atomic<std::uint64_t> detections = 0;
   for ([[maybe_unused]] auto _ : state) {
     parallel_for(static_cast<std::size_t>(source->columns()), threads, [&](std::size_t column) {
@@ -112,9 +135,11 @@ void register_benchmarks(bool small) {
     for (const int threads : {1, hardware_threads()}) {
       const std::string suffix = name + "/threads:" + std::to_string(threads);
       add("photons/exact/" + suffix,
-          [=](auto& state) { photons(state, sensor, Fidelity::kExact, scene, threads); });
+          [=](auto& state) { photons(state, full_frame(sensor, scene), Fidelity::kExact, threads); });
+      add("photons/exact_cube/" + suffix,
+          [=](auto& state) { photons(state, cube_frame(sensor, scene), Fidelity::kExact, threads); });
       add("photons/fast_stream/" + suffix,
-          [=](auto& state) { photons(state, sensor, Fidelity::kFast, scene, threads); });
+          [=](auto& state) { photons(state, full_frame(sensor, scene), Fidelity::kFast, threads); });
       add("photons/fast_sampler/" + suffix,
           [=](auto& state) { sampled_photons(state, sensor, scene, threads); });
     }

@@ -73,7 +73,7 @@ bool within_measured_range(const PhotonSource& exact) {
   constexpr double kPulseTolerance = 0.02;
   const SensorModel& model = exact.model();
   const double pulse_sigma_bins = model.pulse_sigma_s() / model.time_resolution_s();
-  if (!FastPhotonSource::supports(model) || model.time_gate || model.np != kBits || model.slots != kSlots ||
+  if (!FastPhotonSource::supports(exact) || model.time_gate || model.np != kBits || model.slots != kSlots ||
       model.acquisitions < kFewestAcquisitions ||
       std::abs(pulse_sigma_bins / kPulseSigmaBins - 1.0) > kPulseTolerance) {
     return false;

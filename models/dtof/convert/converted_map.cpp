@@ -111,7 +111,8 @@ ConvertedMap read_converted_map(const ConversionOptions& options, const Conversi
   ConvertedMap map;
   map.depth = input.kind == InputKind::kMap
                   ? read_depth_image(path, options.metres_per_unit)
-                  : depth_image_of(path, open_array(options.recording, input.file), options.metres_per_unit);
+                  : depth_image_of(array_label(options.recording, input.file),
+                                   open_array(options.recording, input.file), options.metres_per_unit);
   for (const auto& [name, file] :
        {std::pair{std::string("confidence"), options.confidence}, {"amplitude", options.amplitude}}) {
     if (!file.empty()) {

@@ -21,6 +21,8 @@ void FrameFigures::merge(const FrameFigures& other) {
   errors.merge(other.errors);
   before.merge(other.before);
   without_distance += other.without_distance;
+  behind_another += other.behind_another;
+  at_first_return += other.at_first_return;
 }
 
 FrameMaps frame_maps(std::span<const PixelResult> results, const ReadoutParameters& parameters,
@@ -48,6 +50,17 @@ FrameMaps frame_maps(std::span<const PixelResult> results, const ReadoutParamete
   }
   maps.mean_square = errors.mean_square();
   return maps;
+}
+
+void count_first_returns(std::span<const float> first_return, FrameMaps& maps) {
+  constexpr float kSame = 0.03F;
+  for (std::size_t i = 0; i < first_return.size(); ++i) {
+    if (!std::isnan(first_return[i])) {
+      ++maps.figures.behind_another;
+      maps.figures.at_first_return +=
+          std::abs(maps.depth[i] - first_return[i]) <= kSame * first_return[i] ? 1 : 0;
+    }
+  }
 }
 
 std::vector<std::string> figure_names(bool table) {

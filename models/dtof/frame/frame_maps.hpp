@@ -25,6 +25,10 @@ struct FrameFigures {
   ErrorStatistics errors;
   RunningMoments before;  ///< errors of the distances by Eq. 3.11, without the look-up table
   std::uint64_t without_distance = 0;
+  /// Pixels with another return before the strongest one (FrameTruth::first_return), and those whose distance
+  /// is within 3 % of this first return.
+  std::uint64_t behind_another = 0;
+  std::uint64_t at_first_return = 0;
 
   void merge(const FrameFigures& other);
 };
@@ -43,6 +47,10 @@ struct FrameMaps {
 FrameMaps frame_maps(std::span<const PixelResult> results, const ReadoutParameters& parameters,
                      const SensorModel& sensor, const std::optional<RangeConverter>& table,
                      std::span<const float> truth, std::span<const double> skew_bins = {});
+
+/// Counts the results that measured the first return instead of the strongest one; `first_return` as in
+/// FrameTruth.
+void count_first_returns(std::span<const float> first_return, FrameMaps& maps);
 
 /// Names of a summary's figures, with or without a look-up table, and their values as text; "-" if no pixel
 /// is judged.

@@ -56,7 +56,7 @@ FrameTruth frame_truth(const TargetMap& targets, const SensorModel& sensor, std:
     for (const int column : columns) {
       const PixelTarget& target = targets.at(column, row);
       float metres = kNotJudged;
-      if (!target.returns_signal()) {
+      if (!targets.returns_signal(column, row)) {
         ++truth.without_target;
       } else if (target.depth_m >= range_m) {
         ++truth.beyond_range;
@@ -66,6 +66,16 @@ FrameTruth frame_truth(const TargetMap& targets, const SensorModel& sensor, std:
         metres = static_cast<float>(target.depth_m);
       }
       truth.metres.push_back(metres);
+      if (targets.cube()) {
+        float first = kNotJudged;
+        if (!std::isnan(metres)) {
+          const double nearest = targets.cube()->first_return(column, row, sensor.pulse_fwhm_s).distance_m;
+          if (nearest < (1.0 - FrameTruth::kAnotherReturn) * target.depth_m) {
+            first = static_cast<float>(nearest);
+          }
+        }
+        truth.first_return.push_back(first);
+      }
     }
   }
   return truth;

@@ -33,6 +33,13 @@ struct FrameTruth {
   std::uint64_t beyond_range = 0;    ///< pixels whose target is beyond the sensor's range
   std::uint64_t dead = 0;            ///< dead pixels with a target in range; 0 with binning
 
+  /// With a transient cube: distance of the first return, m, of each judged pixel whose first return is more
+  /// than kAnotherReturn nearer than its truth, the strongest return; NaN for the others. Empty without a
+  /// cube.
+  std::vector<float> first_return = {};
+
+  static constexpr double kAnotherReturn = 0.1;  ///< share of the true distance
+
   [[nodiscard]] bool any_judged() const;
   /// Sentences for summaries, one for each kind of pixel that is not judged, each after a blank. E.g. " 3
   /// pixels are beyond the sensor's range, 6.75 m (light there and back in 45 ns), and not judged."; empty if

@@ -127,15 +127,19 @@ bool parse_fortran_order(const std::filesystem::path& path, std::string_view hea
 std::vector<std::size_t> parse_shape(const std::filesystem::path& path, std::string_view header) {
   constexpr std::string_view kKey = "shape";
   const std::string_view text = enclosed(path, behind_key(path, header, kKey), '(', ')', kKey);
-  if (text.find_first_not_of("0123456789, ") != std::string_view::npos) {
-    fail_header(path, kKey);
-  }
   std::vector<std::size_t> shape;
   for (std::size_t begin = text.find_first_not_of(", "); begin != std::string_view::npos;) {
     const std::size_t end = std::min(text.find_first_of(", ", begin), text.size());
     std::size_t value = 0;
-    if (std::from_chars(text.data() + begin, text.data() + end, value).ec != std::errc()) {
+    const auto [rest, error] = std::from_chars(text.data() + begin, text.data() + end, value);
+    if (error == std::errc::result_out_of_range) {
       fail_in_file(path, fmt::format("the NPY shape ({}) is too large", text));
+    }
+    // NumPy on Python 2 wrote (2L, 3L).
+    const std::string_view suffix = text.substr(static_cast<std::size_t>(rest - text.data()),
+                                                end - static_cast<std::size_t>(rest - text.data()));
+    if (error != std::errc() || (!suffix.empty() && suffix != "L")) {
+      fail_header(path, kKey);
     }
     shape.push_back(value);
     begin = text.find_first_not_of(", ", end);

@@ -17,7 +17,8 @@ struct NpyArray {
 };
 
 /// Reads NPY format 1.0, 2.0 and 3.0 (numpy.lib.format): integers (i1, i2, i4, i8, u1, u2, u4, u8) and
-/// floating-point numbers (f2, f4, f8), either byte order, C or Fortran order, at most 2^27 elements. Throws
+/// floating-point numbers (f2, f4, f8), either byte order, C or Fortran order, at most 2^27 elements. A shape
+/// may be as old NumPy wrote it on Python 2, (2L, 3L). Throws
 /// InputError "<path>: <reason>" for anything else, an empty array, a truncated file or bytes left over. Also
 /// refused are integers beyond +-2^53, which a double cannot hold.
 NpyArray read_npy(const std::filesystem::path& path);

@@ -45,8 +45,10 @@ class Bits64 {
 inline double draw_exponential(Bits64& bits) {
   return boost::random::exponential_distribution<double>(1.0)(bits);
 }
+/// Uniform in [0, 1) for a random word.
+inline double uniform_of(std::uint64_t word) { return static_cast<double>(word >> 11U) * 0x1.0p-53; }
 /// Uniform in [0, 1).
-inline double draw_uniform(Bits64& bits) { return static_cast<double>(bits() >> 11U) * 0x1.0p-53; }
+inline double draw_uniform(Bits64& bits) { return uniform_of(bits()); }
 inline double draw_normal(Bits64& bits) { return boost::random::normal_distribution<double>(0.0, 1.0)(bits); }
 
 }  // namespace dtof

@@ -153,15 +153,44 @@ std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRan
   return std::span<const double>(events_).first(event_count_);
 }
 
+std::span<const double> EventSampler::sample(double background, const TransientLight& light,
+                                             CounterRandom random) {
+  walk_background(background * (gate_end_ - gate_begin_) / code_count_, random);
+  walk_light(light, random);
+  merge();
+  lose_and_add(random);
+  return std::span<const double>(events_).first(event_count_);
+}
+
 std::span<const double> EventSampler::sample(const PixelReturns& returns, CounterRandom random,
                                              CounterRandom further) {
   walk_background(returns.rates.background * (gate_end_ - gate_begin_) / code_count_, random);
   signal_end_ = kFirst;
   if (!returns_->signal_changes()) {
-    walk_signal(returns.rates, random);
+    if (returns.light.none()) {
+      walk_signal(returns.rates, random);
+    } else {
+      walk_light(returns.light, random);
+    }
   }
-  further_.clear();
   returns_->draw(returns, further, further_);
+  return with_further(random);
+}
+
+std::span<const double> EventSampler::sample(const MovingReturns& returns, CounterRandom random,
+                                             CounterRandom further) {
+  walk_background(returns.own.rates.background * (gate_end_ - gate_begin_) / code_count_, random);
+  signal_end_ = kFirst;
+  returns_->draw(returns, further, further_);
+  return with_further(random);
+}
+
+std::span<const SeenPixel> EventSampler::seen() const {
+  return returns_ ? std::span<const SeenPixel>(returns_->seen()) : std::span<const SeenPixel>();
+}
+
+/// The events of all processes together, after losses.
+std::span<const double> EventSampler::with_further(CounterRandom& random) {
   make_room(merged_, signal_end_ + further_.size());
   const auto merged = std::merge(signal_.begin(), signal_.begin() + static_cast<std::ptrdiff_t>(signal_end_),
                                  further_.begin(), further_.end(), merged_.begin());
@@ -237,19 +266,55 @@ void EventSampler::walk_flat(double end, CounterRandom& random, const PositionAt
 }
 
 void EventSampler::walk_signal(const PixelRates& rates, CounterRandom& random) {
-  Bits64 bits(random);
-  const Ziggurat& exponential = Ziggurat::exponential();
   const Ziggurat& normal = Ziggurat::normal();
-  signal_end_ = kFirst;
-  const double acquisitions_per_event = 1.0 / rates.signal;
-  const double end = rates.signal * acquisitions_;
   const double centre = rates.centre_bins;
   const double sigma = sigma_;
+  walk_pulses<2>(
+      rates.signal, !response_, random,
+      [&normal, centre, sigma](const std::uint64_t* words) {
+        const Ziggurat::Draw deviation = normal.draw(words[0]);
+        return Ziggurat::Draw{centre + sigma * deviation.value, deviation.decided};
+      },
+      [this, centre, sigma](Bits64& bits) {
+        return centre + (response_ ? response_->quantile(draw_uniform(bits)) : sigma * draw_normal(bits));
+      });
+}
+
+void EventSampler::walk_light(const TransientLight& light, CounterRandom& random) {
+  if (light.none()) {
+    signal_end_ = kFirst;
+    return;
+  }
+  const Ziggurat& normal = Ziggurat::normal();
+  const double sigma = sigma_;
+  walk_pulses<3>(
+      light.events(), !response_, random,
+      [&normal, light, sigma](const std::uint64_t* words) {
+        const Ziggurat::Draw deviation = normal.draw(words[0]);
+        return Ziggurat::Draw{light.quantile(uniform_of(words[1])) + sigma * deviation.value,
+                              deviation.decided};
+      },
+      [this, light, sigma](Bits64& bits) {
+        const double deviation =
+            response_ ? response_->quantile(draw_uniform(bits)) : sigma * draw_normal(bits);
+        return light.quantile(draw_uniform(bits)) + deviation;
+      });
+}
+
+/// Walks all pulses. An event takes kWords words: one for its gap, the others for `fast_time`, if it decides.
+template <std::size_t kWords, typename Fast, typename Slow>
+void EventSampler::walk_pulses(double events, bool fast, CounterRandom& random, const Fast& fast_time,
+                               const Slow& slow_time) {
+  Bits64 bits(random);
+  const Ziggurat& exponential = Ziggurat::exponential();
+  signal_end_ = kFirst;
+  const double acquisitions_per_event = 1.0 / events;
+  const double end = events * acquisitions_;
   const double gate_begin = gate_begin_;
   const double gate_end = gate_end_;
   const double frame_end = frame_end_;
   const double code_count = code_count_;
-  const bool sort_now = rates.signal <= kSortWhileDrawing;
+  const bool sort_now = events <= kSortWhileDrawing;
   double walked = 0.0;
   for (bool inside = true; inside;) {
     const auto words = bits.batch();
@@ -275,10 +340,10 @@ void EventSampler::walk_signal(const PixelRates& rates, CounterRandom& random) {
       ++event;
     };
     std::size_t i = bits.next();
-    for (; i + 1 < Bits64::kBatch && !response_; i += 2) {
+    for (; i + kWords - 1 < Bits64::kBatch && fast; i += kWords) {
       const Ziggurat::Draw gap = exponential.draw(words[i]);
-      const Ziggurat::Draw deviation = normal.draw(words[i + 1]);
-      if (!(gap.decided & deviation.decided)) {
+      const Ziggurat::Draw time = fast_time(&words[i + 1]);
+      if (!(gap.decided & time.decided)) {
         break;
       }
       walked += gap.value;
@@ -286,14 +351,14 @@ void EventSampler::walk_signal(const PixelRates& rates, CounterRandom& random) {
         inside = false;
         break;
       }
-      keep(centre + sigma * deviation.value);
+      keep(time.value);
     }
     bits.skip_to(i);
     if (i < Bits64::kBatch && inside) {
       walked += draw_exponential(bits);
       inside = walked < end;
       if (inside) {
-        keep(centre + (response_ ? response_->quantile(draw_uniform(bits)) : sigma * draw_normal(bits)));
+        keep(slow_time(bits));
       }
     }
     signal_end_ = static_cast<std::size_t>(event - signal_.data());

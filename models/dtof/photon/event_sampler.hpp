@@ -32,16 +32,29 @@ class EventSampler {
 
   /// Events of a pixel without surroundings. Valid until the next call.
   std::span<const double> sample(const PixelRates& rates, CounterRandom random);
+  /// Events of a pixel with this background and the returns of a transient cube (arrival times in units of
+  /// T_res), without surroundings. All events of an acquisition are returned, whatever `keep` is. Valid until
+  /// the next call.
+  std::span<const double> sample(double background, const TransientLight& light, CounterRandom random);
   /// Events of a pixel in surroundings; the sensor must have some (Surroundings::none is false). Additional
   /// returns are drawn from `further`. All events of an acquisition are returned, whatever `keep` is. Valid
   /// until the next call.
   std::span<const double> sample(const PixelReturns& returns, CounterRandom random, CounterRandom further);
+  /// The same for a sensor that moves sideways.
+  std::span<const double> sample(const MovingReturns& returns, CounterRandom random, CounterRandom further);
+  /// Pixels of the scene that a pixel sees (ReturnSampler::seen).
+  [[nodiscard]] std::span<const SeenPixel> seen() const;
 
  private:
   void walk_background(double events_per_acquisition, CounterRandom& random);
   template <typename PositionAt>
   void walk_flat(double end, CounterRandom& random, const PositionAt& position_at);
   void walk_signal(const PixelRates& rates, CounterRandom& random);
+  void walk_light(const TransientLight& light, CounterRandom& random);
+  template <std::size_t kWords, typename Fast, typename Slow>
+  void walk_pulses(double events, bool fast, CounterRandom& random, const Fast& fast_time,
+                   const Slow& slow_time);
+  std::span<const double> with_further(CounterRandom& random);
   void merge();
   void walk_in_time_order(const PixelRates& rates, double background, CounterRandom& random);
   void lose_and_add(CounterRandom& random);

@@ -260,11 +260,11 @@ class FastPixelSampler final : public PixelSampler {
 }  // namespace
 
 FastPhotonSource::FastPhotonSource(PhotonSource exact) : exact_(std::move(exact)) {
-  if (!supports(exact_.model())) {
+  if (!supports(exact_)) {
     throw InputError(
         "the fast photon model has no dead time, afterpulsing, binning, coincidence, measured pulse, TDC "
         "code "
-        "widths or surroundings: use the exact one");
+        "widths, surroundings or transient cube: use the exact one");
   }
 }
 
@@ -272,6 +272,10 @@ bool FastPhotonSource::supports(const SensorModel& model) {
   return model.dead_time_s == 0.0 && model.afterpulse_probability == 0.0 && model.binning == 1 &&
          !model.coincidence_window_s && !model.pulse_response && !model.tdc_codes &&
          model.surroundings.none();
+}
+
+bool FastPhotonSource::supports(const PhotonSource& exact) {
+  return supports(exact.model()) && !exact.targets().cube();
 }
 
 ColumnStream FastPhotonSource::column_rows(int index, RowRange range) const {

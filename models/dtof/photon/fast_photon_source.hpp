@@ -12,7 +12,7 @@ namespace dtof {
 /// Faster, approximate replacement of a PhotonSource, with other random numbers. Times come from a table of
 /// the pixel's cumulative mean events (ArrivalTable) instead of single events. Included are pile-up to SLOTS,
 /// time gates, jitter, hot and dead pixels. Dead time, afterpulsing, binning, coincidence, a measured pulse,
-/// TDC code widths and surroundings need the exact source.
+/// TDC code widths, surroundings and transient cubes need the exact source.
 ///
 /// Streams (`column`): pixels with few events per acquisition are drawn by the exact model. In others, one
 /// exponential gap per detection gives acquisition and time together; empty acquisitions and events after the
@@ -36,6 +36,8 @@ class FastPhotonSource final : public SampledSource {
 
   /// False if the model has an effect that only the exact source includes.
   static bool supports(const SensorModel& model);
+  /// The same for a source; false also for a transient cube.
+  static bool supports(const PhotonSource& exact);
 
  private:
   PhotonSource exact_;

@@ -55,10 +55,10 @@ class MeanPixelSampler final : public PixelSampler {
 }  // namespace
 
 MeanPhotonSource::MeanPhotonSource(PhotonSource exact) : exact_(std::move(exact)) {
-  if (!FastPhotonSource::supports(exact_.model())) {
+  if (!FastPhotonSource::supports(exact_)) {
     throw InputError(
         "the analytic photon model has no dead time, afterpulsing, binning, coincidence, measured pulse, TDC "
-        "code widths or surroundings: use the exact one");
+        "code widths, surroundings or transient cube: use the exact one");
   }
 }
 

@@ -134,8 +134,37 @@ PhotonSource::PhotonSource(SensorModel model, TargetMap targets, double klux, st
       }
     }
   }
+  if (targets_->cube()) {
+    validate_cube();
+  }
   if (!plain_) {
     validate_surroundings();
+  }
+}
+
+/// A cube has its own fog and panes, and no distances that could change.
+void PhotonSource::validate_cube() const {
+  constexpr double kMostEventsInMemory = 1e8;
+  const Surroundings& around = model_.surroundings;
+  if (around.fog.extinction_per_m > 0.0 || around.pane.distance_m > 0.0 ||
+      around.motion.velocity_m_per_s != 0.0) {
+    throw InputError(
+        "a sensor with fog, pane or radial motion cannot see a transient cube, whose light has all "
+        "scatterers "
+        "in it and no distances");
+  }
+  for (int column = 0; column < columns(); ++column) {
+    for (int row = 0; row < rows(); ++row) {
+      const PixelRates mean = rates(column, row);
+      const double events = (mean.signal + mean.background) * model_.acquisitions;
+      if (!(events <= kMostEventsInMemory)) {
+        throw InputError(
+            fmt::format("pixel (column {}, row {}): {:.3g} mean events a frame are too many for a transient "
+                        "cube (at most "
+                        "{:.0g}); its scale is in detected events of a pixel and pulse",
+                        column, row, events, kMostEventsInMemory));
+      }
+    }
   }
 }
 
@@ -175,8 +204,14 @@ PhotonSource PhotonSource::at_frame(std::uint32_t frame) const {
   return copy;
 }
 
-PixelRates PhotonSource::rates(int column, int row) const {
-  const PixelTarget& target = targets_->at(column, row);
+PixelRates PhotonSource::rates(int column, int row) const { return rates_from(column, row, column, row); }
+
+PixelReturns PhotonSource::returns(int column, int row) const {
+  return returns_from(column, row, column, row);
+}
+
+PixelRates PhotonSource::rates_from(int column, int row, int seen_column, int seen_row) const {
+  const PixelTarget& target = targets_->at(seen_column, seen_row);
   PixelRates rates;
   const double sunlit = plain_ ? target.reflectivity
                                : target.reflectivity * model_.surroundings.sunlight_share(
@@ -202,25 +237,65 @@ PixelRates PhotonSource::rates(int column, int row) const {
       rates.centre_bins += around.skew.of_pixel(column, row, columns()) / model_.time_resolution_s();
     }
   }
+  if (targets_->cube()) {
+    rates.signal = targets_->cube()->light(seen_column, seen_row).events();
+  }
   return rates;
 }
 
-PixelReturns PhotonSource::returns(int column, int row) const {
+TransientLight PhotonSource::arriving_light(int column, int row, double skew_bins) const {
+  TransientLight light = targets_->cube()->light(column, row);
+  light.begin = (light.begin + model_.pulse_fwhm_s) / model_.time_resolution_s() + skew_bins;
+  light.bin_width /= model_.time_resolution_s();
+  return light;
+}
+
+PixelReturns PhotonSource::returns_from(int column, int row, int seen_column, int seen_row) const {
   PixelReturns returns;
-  returns.rates = rates(column, row);
+  returns.rates = rates_from(column, row, seen_column, seen_row);
   returns.dead = !model_.defects.none() && model_.defects.is_dead(column, row);
-  const PixelTarget& target = targets_->at(column, row);
+  const PixelTarget& target = targets_->at(seen_column, seen_row);
   if (target.returns_signal()) {
     returns.distance_m = target.depth_m;
   }
   returns.skew_bins = model_.surroundings.skew.of_pixel(column, row, columns()) / model_.time_resolution_s();
+  if (targets_->cube() && !returns.dead) {
+    returns.light = arriving_light(seen_column, seen_row, returns.skew_bins);
+  }
   return returns;
+}
+
+MovingReturns PhotonSource::moving_returns(std::span<const SeenPixel> seen, int column, int row) const {
+  MovingReturns moving;
+  moving.own = returns(column, row);
+  moving.own.rates.background = model_.background_events(0.0, 0.0);
+  if (!model_.defects.none() && model_.defects.is_hot(column, row)) {
+    moving.own.rates.background +=
+        (model_.defects.hot_dark_count_rate_hz - model_.dark_count_rate_hz) * model_.integration_time_s;
+  }
+  if (moving.own.dead) {
+    moving.own.rates = {};
+  }
+  for (const SeenPixel& pixel : seen) {
+    moving.seen.push_back(returns_from(column, row, std::clamp(column + pixel.columns, 0, columns() - 1),
+                                       std::clamp(row + pixel.rows, 0, rows() - 1)));
+    moving.seen.back().rates.background -= moving.own.rates.background;
+  }
+  return moving;
 }
 
 std::span<const double> PhotonSource::sample(EventSampler& sampler, int column, int row,
                                              RandomPurpose purpose) const {
+  if (plain_ && targets_->cube()) {
+    const PixelReturns lit = returns(column, row);
+    return sampler.sample(lit.rates.background, lit.light, random(column, row, purpose));
+  }
   if (plain_) {
     return sampler.sample(rates(column, row), random(column, row, purpose));
+  }
+  if (!model_.surroundings.lateral.none()) {
+    return sampler.sample(moving_returns(sampler.seen(), column, row), random(column, row, purpose),
+                          random(column, row, RandomPurpose::kFurtherReturns));
   }
   return sampler.sample(returns(column, row), random(column, row, purpose),
                         random(column, row, RandomPurpose::kFurtherReturns));

@@ -32,6 +32,9 @@ namespace dtof {
 ///     code widths (TdcCodes).
 /// An event in the last bin gets the no-detection code: it takes a slot, and read-outs drop it.
 ///
+/// With a transient cube (TargetMap::cube), a signal event's time is its time in the cube, uniform within its
+/// bin, plus the pulse's deviation and FWHM; the number of its events is the cube's own.
+///
 /// Surroundings (photon/surroundings.hpp) add events before step 1. Without surroundings the photons are the
 /// same as if the program had no such model.
 ///
@@ -77,7 +80,14 @@ class PhotonSource final : public StreamSource {
   }
 
  private:
+  void validate_cube() const;
   void validate_surroundings() const;
+  /// Mean events of pixel (column, row) if it sees the scene's pixel (seen_column, seen_row).
+  [[nodiscard]] PixelRates rates_from(int column, int row, int seen_column, int seen_row) const;
+  [[nodiscard]] PixelReturns returns_from(int column, int row, int seen_column, int seen_row) const;
+  /// A pixel's light in a transient cube as arrival times in units of T_res, skew included.
+  [[nodiscard]] TransientLight arriving_light(int column, int row, double skew_bins) const;
+  [[nodiscard]] MovingReturns moving_returns(std::span<const SeenPixel> seen, int column, int row) const;
   [[nodiscard]] ColumnStream plain_column(int index, RowRange range) const;
   [[nodiscard]] ColumnStream combined_column(int index, RowRange range) const;
 

@@ -45,6 +45,26 @@ class ReturnSampler::Walk {
     }
   }
 
+  /// Calls `event(acquisition)` for each event of a process with this many mean events in each pulse of the
+  /// frame. If the camera moves, only events of the part of the pixel that shows `look_at`'s pixel remain.
+  template <typename Event>
+  void each_pulse(double events, const Event& event) {
+    if (seen_ == nullptr) {
+      each(events, sampler_.acquisitions_,
+           [&](std::size_t pulse) { event(static_cast<std::uint32_t>(pulse)); });
+      return;
+    }
+    each(events * seen_->largest_share, seen_->end - seen_->first, [&](std::size_t pulse) {
+      const auto acquisition = seen_->first + static_cast<std::uint32_t>(pulse);
+      if (happens(seen_share(sampler_.around_.lateral, *seen_, acquisition, sampler_.acquisitions_) /
+                  seen_->largest_share)) {
+        event(acquisition);
+      }
+    });
+  }
+  /// Null: the pixel's own scene in every pulse.
+  void look_at(const SeenPixel* seen) { seen_ = seen; }
+
   /// An event of probability `share`.
   bool happens(double share) { return share >= 1.0 || draw_uniform(bits_) < share; }
   double uniform() { return draw_uniform(bits_); }
@@ -84,6 +104,7 @@ class ReturnSampler::Walk {
   std::vector<double>& positions_;
   std::size_t first_ = 0;
   std::size_t begin_;  // of this return's events
+  const SeenPixel* seen_ = nullptr;
 };
 
 ReturnSampler::ReturnSampler(const SensorModel& model)
@@ -101,7 +122,8 @@ ReturnSampler::ReturnSampler(const SensorModel& model)
       pulse_fwhm_s_(model.pulse_fwhm_s),
       time_resolution_s_(model.time_resolution_s()),
       signal_events_1m_(model.signal_events_1m),
-      metres_per_pulse_(around_.motion.velocity_m_per_s * model.pulse_period()) {
+      metres_per_pulse_(around_.motion.velocity_m_per_s * model.pulse_period()),
+      seen_(seen_pixels(around_.lateral, acquisitions_)) {
   const LaserSettling& settling = around_.settling;
   if (settling.silent_share != 0.0 || settling.power_drop != 0.0 || settling.power_drift != 0.0) {
     for (std::uint32_t i = 0; i < acquisitions_; ++i) {
@@ -151,10 +173,44 @@ void ReturnSampler::draw(const PixelReturns& returns, CounterRandom& random,
     return;
   }
   Walk walk(*this, random, positions);
-  if (signal_changes_ && returns.distance_m > 0.0) {
+  if (signal_changes_) {
     draw_target(returns, walk);
   }
   draw_surface(around_.cover_glass.distance_m, around_.cover_glass.events, returns.skew_bins, walk);
+  draw_pane(returns, walk);
+  draw_fog(returns, walk);
+  draw_other_laser(returns.skew_bins, walk);
+  walk.finish();
+}
+
+void ReturnSampler::draw(const MovingReturns& returns, CounterRandom& random,
+                         std::vector<double>& positions) const {
+  positions.clear();
+  if (returns.own.dead) {
+    return;
+  }
+  Walk walk(*this, random, positions);
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    walk.look_at(&seen_[i]);
+    draw_sunlight(returns.seen[i].rates.background, walk);
+    draw_target(returns.seen[i], walk);
+    draw_pane(returns.seen[i], walk);
+    draw_fog(returns.seen[i], walk);
+  }
+  walk.look_at(nullptr);
+  draw_surface(around_.cover_glass.distance_m, around_.cover_glass.events, returns.own.skew_bins, walk);
+  draw_other_laser(returns.own.skew_bins, walk);
+  walk.finish();
+}
+
+void ReturnSampler::draw_sunlight(double events, Walk& walk) const {
+  const double width = gate_end_ - gate_begin_;
+  walk.each_pulse(events * width / code_count_, [&](std::uint32_t acquisition) {
+    walk.add(acquisition, gate_begin_ + walk.uniform() * width);
+  });
+}
+
+void ReturnSampler::draw_pane(const PixelReturns& returns, Walk& walk) const {
   const Pane& pane = around_.pane;
   if (pane.distance_m > 0.0 && !(returns.distance_m > 0.0 && returns.distance_m <= pane.distance_m)) {
     double share = 1.0;
@@ -165,14 +221,12 @@ void ReturnSampler::draw(const PixelReturns& returns, CounterRandom& random,
                  share * signal_events_1m_ * pane.reflectivity / pane.distance_m / pane.distance_m,
                  returns.skew_bins, walk);
   }
-  if (around_.fog.extinction_per_m > 0.0) {
-    draw_fog(returns, walk);
-  }
-  draw_other_laser(returns.skew_bins, walk);
-  walk.finish();
 }
 
 void ReturnSampler::draw_target(const PixelReturns& returns, Walk& walk) const {
+  if (!(returns.distance_m > 0.0) && returns.light.none()) {
+    return;
+  }
   const double middle = 0.5 * (acquisitions_ - 1.0);
   const double extinction = around_.fog.extinction_per_m;
   // Signal over that at the frame's middle.
@@ -182,9 +236,9 @@ void ReturnSampler::draw_target(const PixelReturns& returns, Walk& walk) const {
   };
   const double nearest = returns.distance_m - std::abs(metres_per_pulse_) * middle;
   const double highest = metres_per_pulse_ == 0.0 ? 1.0 : strength(nearest);
-  walk.each(returns.rates.signal * highest * highest_power_, acquisitions_, [&](std::size_t pulse) {
-    const auto acquisition = static_cast<std::uint32_t>(pulse);
-    double centre = returns.rates.centre_bins + delay_bins(acquisition);
+  walk.each_pulse(returns.rates.signal * highest * highest_power_, [&](std::uint32_t acquisition) {
+    double centre = returns.light.none() ? returns.rates.centre_bins : returns.light.quantile(walk.uniform());
+    centre += delay_bins(acquisition);
     double share = power(acquisition) / highest_power_;
     if (metres_per_pulse_ != 0.0) {
       const double moved = metres_per_pulse_ * (acquisition - middle);
@@ -199,8 +253,7 @@ void ReturnSampler::draw_target(const PixelReturns& returns, Walk& walk) const {
 
 void ReturnSampler::draw_surface(double distance_m, double events, double skew_bins, Walk& walk) const {
   const double centre = arrival_bins(distance_m) + skew_bins;
-  walk.each(events * highest_power_, acquisitions_, [&](std::size_t pulse) {
-    const auto acquisition = static_cast<std::uint32_t>(pulse);
+  walk.each_pulse(events * highest_power_, [&](std::uint32_t acquisition) {
     if (walk.happens(power(acquisition) / highest_power_)) {
       walk.add(acquisition, centre + delay_bins(acquisition) + walk.own_deviation());
     }
@@ -211,7 +264,7 @@ void ReturnSampler::draw_fog(const PixelReturns& returns, Walk& walk) const {
   const Fog& fog = around_.fog;
   const Pane& pane = around_.pane;
   const double end = returns.distance_m > 0.0 ? returns.distance_m : kFarthest_m;
-  if (end <= fog.overlap_m) {
+  if (fog.extinction_per_m == 0.0 || end <= fog.overlap_m) {
     return;
   }
   // Without extinction and pane the density falls with the distance squared: that is drawn, and thinned.
@@ -221,8 +274,7 @@ void ReturnSampler::draw_fog(const PixelReturns& returns, Walk& walk) const {
   const double events = signal_events_1m_ * std::numbers::pi * fog.extinction_per_m / fog.lidar_ratio_sr *
                         per_range * near_share;
   const double behind_pane = pane.transmittance * pane.transmittance;
-  walk.each(events * highest_power_, acquisitions_, [&](std::size_t pulse) {
-    const auto acquisition = static_cast<std::uint32_t>(pulse);
+  walk.each_pulse(events * highest_power_, [&](std::uint32_t acquisition) {
     const double distance = 1.0 / (per_near - walk.uniform() * per_range);
     double share = std::exp(-2.0 * fog.extinction_per_m * (distance - fog.overlap_m)) * power(acquisition) /
                    highest_power_;

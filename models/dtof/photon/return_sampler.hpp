@@ -8,6 +8,7 @@
 #include "dtof/core/pulse_response.hpp"
 #include "dtof/core/random.hpp"
 #include "dtof/photon/surroundings.hpp"
+#include "dtof/photon/transient_cube.hpp"
 
 namespace dtof {
 
@@ -24,8 +25,17 @@ struct PixelRates {
 struct PixelReturns {
   PixelRates rates;         ///< background and the target's return at the frame's middle, skew included
   double distance_m = 0.0;  ///< distance of the target at the frame's middle; 0: no target
+  /// Returns of a transient cube, as arrival times in units of T_res; they take the target's place.
+  TransientLight light;
   double skew_bins = 0.0;
   bool dead = false;
+};
+
+/// Mean events of a moving pixel: `own` has those that stay with the pixel, `seen` those of each pixel of the
+/// scene (ReturnSampler::seen), whose background is sunlight alone.
+struct MovingReturns {
+  PixelReturns own;
+  std::vector<PixelReturns> seen;
 };
 
 /// Draws the additional events of one pixel over a frame that its surroundings cause: cover glass, fog, pane
@@ -39,8 +49,12 @@ class ReturnSampler {
   explicit ReturnSampler(const SensorModel& model);
 
   [[nodiscard]] bool signal_changes() const { return signal_changes_; }
+  /// Pixels of the scene that a pixel sees; empty unless the camera moves sideways.
+  [[nodiscard]] const std::vector<SeenPixel>& seen() const { return seen_; }
   /// Events inside the time gate, in time order, as positions (EventSampler).
   void draw(const PixelReturns& returns, CounterRandom& random, std::vector<double>& positions) const;
+  /// The same for a sensor that moves sideways; includes the sunlight of the scene.
+  void draw(const MovingReturns& returns, CounterRandom& random, std::vector<double>& positions) const;
 
  private:
   class Walk;
@@ -60,7 +74,9 @@ class ReturnSampler {
   }
   void draw_target(const PixelReturns& returns, Walk& walk) const;
   void draw_surface(double distance_m, double events, double skew_bins, Walk& walk) const;
+  void draw_pane(const PixelReturns& returns, Walk& walk) const;
   void draw_fog(const PixelReturns& returns, Walk& walk) const;
+  void draw_sunlight(double events, Walk& walk) const;
   void draw_other_laser(double skew_bins, Walk& walk) const;
 
   Surroundings around_;
@@ -80,6 +96,7 @@ class ReturnSampler {
   std::vector<double> powers_;       // power of each pulse relative to the settled one; empty: always 1
   std::vector<double> delays_bins_;  // delay of each pulse; empty: none
   std::vector<Arrival> arrivals_;
+  std::vector<SeenPixel> seen_;
 };
 
 }  // namespace dtof

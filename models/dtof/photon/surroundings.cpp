@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/math/special_functions/expint.hpp>
 #include <cmath>
 #include <limits>
@@ -16,6 +17,7 @@ namespace dtof {
 namespace {
 
 constexpr int kMostOffsetBits = 12;
+constexpr double kMostPixelsPerFrame = 1000.0;
 constexpr double kLargest = std::numeric_limits<double>::max();
 
 /// Written so that a NaN fails.
@@ -98,6 +100,51 @@ std::vector<double> FiringOffsets::delays(std::uint32_t acquisitions) const {
   return delays;
 }
 
+namespace {
+
+/// Place of a moving pixel in the scene, in pixels from its own.
+double place(double pixels_per_frame, std::uint32_t acquisition, std::uint32_t acquisitions) {
+  return pixels_per_frame * (acquisition - 0.5 * (acquisitions - 1.0)) / acquisitions;
+}
+
+}  // namespace
+
+double seen_share(const LateralMotion& motion, const SeenPixel& seen, std::uint32_t acquisition,
+                  std::uint32_t acquisitions) {
+  // Two squares of side 1 whose centres are `apart` share this part of a side.
+  const auto overlap = [](double apart) { return std::max(0.0, 1.0 - std::abs(apart)); };
+  return overlap(place(motion.columns_per_frame, acquisition, acquisitions) - seen.columns) *
+         overlap(place(motion.rows_per_frame, acquisition, acquisitions) - seen.rows);
+}
+
+std::vector<SeenPixel> seen_pixels(const LateralMotion& motion, std::uint32_t acquisitions) {
+  std::vector<SeenPixel> seen;
+  if (motion.none()) {
+    return seen;
+  }
+  for (std::uint32_t i = 0; i < acquisitions; ++i) {
+    const auto left = static_cast<int>(std::floor(place(motion.columns_per_frame, i, acquisitions)));
+    const auto upper = static_cast<int>(std::floor(place(motion.rows_per_frame, i, acquisitions)));
+    for (const int columns : {left, left + 1}) {
+      for (const int rows : {upper, upper + 1}) {
+        const SeenPixel now{.columns = columns, .rows = rows, .first = i, .end = i + 1};
+        const double share = seen_share(motion, now, i, acquisitions);
+        if (share == 0.0) {
+          continue;
+        }
+        // The place moves on a straight line: a pixel that was left does not come back.
+        const auto known = std::find_if(seen.rbegin(), seen.rend(), [&](const SeenPixel& earlier) {
+          return earlier.columns == columns && earlier.rows == rows;
+        });
+        SeenPixel& pixel = known == seen.rend() ? seen.emplace_back(now) : *known;
+        pixel.end = i + 1;
+        pixel.largest_share = std::max(pixel.largest_share, share);
+      }
+    }
+  }
+  return seen;
+}
+
 bool Surroundings::none() const {
   Surroundings other = *this;
   other.firing_offsets = {};
@@ -123,8 +170,8 @@ bool Surroundings::none() const {
 }
 
 bool Surroundings::signal_changes() const {
-  return motion.velocity_m_per_s != 0.0 || settling.silent_share != 0.0 || settling.power_drop != 0.0 ||
-         settling.delay_s != 0.0 || settling.power_drift != 0.0;
+  return motion.velocity_m_per_s != 0.0 || !lateral.none() || settling.silent_share != 0.0 ||
+         settling.power_drop != 0.0 || settling.delay_s != 0.0 || settling.power_drift != 0.0;
 }
 
 double Surroundings::two_way_transmittance(double distance_m) const {
@@ -159,6 +206,10 @@ void Surroundings::validate() const {
   require(other_laser.pulse_fwhm_s >= 0.0, "the other laser's pulse must have an FWHM of at least 0 s",
           other_laser.pulse_fwhm_s);
   require(true, "a target's velocity must be finite", motion.velocity_m_per_s);
+  for (const double pixels : {lateral.columns_per_frame, lateral.rows_per_frame}) {
+    require(std::abs(pixels) <= kMostPixelsPerFrame,
+            "the camera must move by at most 1000 pixels per frame in each direction", pixels);
+  }
   require(settling.silent_share >= 0.0 && settling.silent_share <= 1.0,
           "the laser's silent share of the frame must be 0 to 1", settling.silent_share);
   require(settling.power_drop >= 0.0 && settling.power_drop <= 1.0, "the laser's power drop must be 0 to 1",

@@ -62,6 +62,36 @@ struct RadialMotion {
   bool operator==(const RadialMotion&) const = default;
 };
 
+/// A camera that moves sideways during the frame: pulse by pulse each pixel looks at another place of
+/// the scene. At the frame's middle it looks at its own pixel of the scene. Between two pixels of the scene
+/// it sees both, by the areas that its square shares with them. Beyond its edge the scene goes on with its
+/// outermost pixels.
+struct LateralMotion {
+  double columns_per_frame = 0.0;  ///< above 0: to the right, so that the scene moves to the left
+  double rows_per_frame = 0.0;     ///< above 0: down
+
+  bool operator==(const LateralMotion&) const = default;
+
+  [[nodiscard]] bool none() const { return columns_per_frame == 0.0 && rows_per_frame == 0.0; }
+};
+
+/// A pixel of the scene that a moving pixel sees in the pulses from `first` to below `end`.
+struct SeenPixel {
+  int columns = 0;  ///< to the right of the pixel's own
+  int rows = 0;     ///< below the pixel's own
+  std::uint32_t first = 0;
+  std::uint32_t end = 0;
+  double largest_share = 0.0;  ///< of the pixel's area, over these pulses
+
+  bool operator==(const SeenPixel&) const = default;
+};
+
+/// Share of a moving pixel's area that shows a pixel of the scene in this acquisition.
+double seen_share(const LateralMotion& motion, const SeenPixel& seen, std::uint32_t acquisition,
+                  std::uint32_t acquisitions);
+/// All pixels of the scene that a moving pixel sees during a frame; empty without motion.
+std::vector<SeenPixel> seen_pixels(const LateralMotion& motion, std::uint32_t acquisitions);
+
 /// A laser that is not settled when the frame starts. Power and delay approach their final values
 /// exponentially, from the first pulse.
 struct LaserSettling {
@@ -122,6 +152,7 @@ struct Surroundings {
   Pane pane;
   OtherLaser other_laser;
   RadialMotion motion;
+  LateralMotion lateral;
   LaserSettling settling;
   TimingSkew skew;
   FiringOffsets firing_offsets;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "dtof/core/error.hpp"
 
@@ -18,6 +19,14 @@ TargetMap::TargetMap(int columns, int rows, PixelTarget target) : columns_(colum
     throw InputError(fmt::format("the array must have at least 1 x 1 pixels, not {} x {}", columns, rows));
   }
   targets_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), target);
+}
+
+void TargetMap::set_cube(std::shared_ptr<const TransientCube> cube) {
+  if (cube && (cube->columns() != columns_ || cube->rows() != rows_)) {
+    throw InputError(fmt::format("a transient cube of {} x {} pixels does not fit an array of {} x {}",
+                                 cube->columns(), cube->rows(), columns_, rows_));
+  }
+  cube_ = std::move(cube);
 }
 
 void TargetMap::validate() const {

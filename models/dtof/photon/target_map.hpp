@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
+
+#include "dtof/photon/transient_cube.hpp"
 
 namespace dtof {
 
@@ -18,6 +21,9 @@ struct PixelTarget {
 };
 
 /// One target per pixel of an array of columns() x rows(); column = x, row = y.
+///
+/// With a transient cube, the cube alone says what laser light returns. A target's depth is then the true
+/// distance by which results are judged, and its reflectivity scales the sunlight alone.
 class TargetMap {
  public:
   /// Gives all pixels the same `target`. Throws InputError unless columns and rows are at least 1.
@@ -27,6 +33,15 @@ class TargetMap {
   [[nodiscard]] int rows() const { return rows_; }
   [[nodiscard]] const PixelTarget& at(int column, int row) const { return targets_[index(column, row)]; }
   [[nodiscard]] PixelTarget& at(int column, int row) { return targets_[index(column, row)]; }
+
+  /// Takes a cube of the same size. Throws InputError for another size.
+  void set_cube(std::shared_ptr<const TransientCube> cube);
+  /// Null: no cube, each pixel has one return.
+  [[nodiscard]] const std::shared_ptr<const TransientCube>& cube() const { return cube_; }
+  /// True if laser light returns to the pixel.
+  [[nodiscard]] bool returns_signal(int column, int row) const {
+    return cube_ ? !cube_->light(column, row).none() : at(column, row).returns_signal();
+  }
 
   /// Throws InputError that names the first pixel whose depth or reflectivity is NaN or negative, or whose
   /// reflectivity is infinite.
@@ -43,6 +58,7 @@ class TargetMap {
   int columns_;
   int rows_;
   std::vector<PixelTarget> targets_;
+  std::shared_ptr<const TransientCube> cube_;
 };
 
 }  // namespace dtof

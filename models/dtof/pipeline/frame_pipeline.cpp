@@ -129,7 +129,10 @@ std::vector<double> FramePipeline::positions(std::span<const PixelResult> result
 }
 
 FrameMaps FramePipeline::judge(std::span<const PixelResult> results, const TabledReadout& readout) const {
-  return frame_maps(results, readout.parameters, scene_.model(), readout.table, truth_.metres, skew_bins());
+  FrameMaps maps =
+      frame_maps(results, readout.parameters, scene_.model(), readout.table, truth_.metres, skew_bins());
+  count_first_returns(truth_.first_return, maps);
+  return maps;
 }
 
 MeasuredFrame FramePipeline::measure_once(const StreamSource& source, const TabledReadout& readout) const {

@@ -240,7 +240,8 @@ std::string find_variable(const std::filesystem::path& path, std::string_view fi
   for (std::size_t offset = kHeaderSize; offset < file.size();) {
     if (file.size() - offset < kTagSize ||
         file.size() - offset - kTagSize < value_at<std::uint32_t>(file, offset + 4)) {
-      fail(path, fmt::format("damaged: the variable at byte {} ends beyond the file", offset));
+      fail(path, fmt::format("damaged: the variable at byte {} ends beyond the file; \"{}\" was asked for",
+                             offset, name));
     }
     const std::size_t size = value_at<std::uint32_t>(file, offset + 4);
     std::string element(file.substr(offset, kTagSize + size));
@@ -248,8 +249,10 @@ std::string find_variable(const std::filesystem::path& path, std::string_view fi
       auto unpacked = unpack(std::string_view(element).substr(kTagSize), kLongestUnpackedVariable);
       if (!unpacked) {
         fail(path,
-             fmt::format("damaged: the variable at byte {} does not decompress, or not to 1 GiB at most",
-                         offset));
+             fmt::format(
+                 "damaged: the variable at byte {} does not decompress, or not to 1 GiB at most; \"{}\" "
+                 "was asked for",
+                 offset, name));
       }
       element = *std::move(unpacked);
     }

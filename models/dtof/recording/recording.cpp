@@ -286,6 +286,11 @@ NpyArray open_array(const RecordingOptions& options, const RecordingFile& file) 
   return read_hdf5_array(path, array);
 }
 
+std::string array_label(const RecordingOptions& options, const RecordingFile& file) {
+  const bool unnamed = file.format == "mat" && parse_array_address(options.file).array.empty();
+  return unnamed ? fmt::format("{}:{}", options.file, options.variable) : options.file;
+}
+
 RecordedData open_recorded_data(const RecordingOptions& options, const RecordingFile& file) {
   if (file.format == "csv") {
     return open_stream(options, file);
@@ -323,7 +328,7 @@ RecordedData open_recorded_data(const RecordingOptions& options, const Recording
   }
   const double bin_width = bin_width_of(options, file);
   return {.description = "histogram cube",
-          .data = histogram_cube(open_array(options, file), bin_width, 0.0, options.file)};
+          .data = histogram_cube(open_array(options, file), bin_width, 0.0, array_label(options, file))};
 }
 
 Recording open_recording(const RecordingOptions& options, RecordingFile file) {

@@ -76,6 +76,10 @@ RecordedData open_recorded_data(const RecordingOptions& options, const Recording
 /// one; in a MATLAB file it is `options.variable`. Throws InputError.
 NpyArray open_array(const RecordingOptions& options, const RecordingFile& file);
 
+/// `options.file` with the name of the variable behind a colon if it is a MATLAB file (of version 5) whose
+/// name has none; for error messages.
+std::string array_label(const RecordingOptions& options, const RecordingFile& file);
+
 /// Makes the frame of a file and releases its contents. Throws InputError that names the file (and line) and
 /// the error.
 Recording open_recording(const RecordingOptions& options, RecordingFile file);

@@ -2,10 +2,15 @@
 #include "dtof/scene/scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "dtof/core/error.hpp"
@@ -173,6 +178,64 @@ TargetMap scene_from_depth_image(int width, int height, std::span<const float> m
       map.at(column, row) = {.depth_m = std::isfinite(depth_m) ? depth_m : 0.0, .reflectivity = reflectivity};
     }
   }
+  return map;
+}
+
+std::array<int, 2> transient_cube_size(std::span<const std::size_t> shape) {
+  constexpr std::size_t kMostPixels = 65535;
+  const std::string text = fmt::format("{}", fmt::join(shape, ", "));
+  if (shape.size() == 4 && shape[3] > 1 && shape[3] <= 4) {
+    throw InputError(fmt::format(
+        "shape ({}): a transient cube has no colours; take one channel, or the mean of all", text));
+  }
+  if (shape.size() < 3 || shape.size() > 4 || (shape.size() == 4 && shape[3] != 1)) {
+    throw InputError(fmt::format("shape ({}): a transient cube has rows, columns and time bins", text));
+  }
+  if (shape[0] < 1 || shape[0] > kMostPixels || shape[1] < 1 || shape[1] > kMostPixels || shape[2] < 1) {
+    throw InputError(
+        fmt::format("shape ({}): a transient cube has 1 to {} rows and columns", text, kMostPixels));
+  }
+  return {static_cast<int>(shape[1]), static_cast<int>(shape[0])};
+}
+
+TargetMap scene_from_transient_cube(std::span<const std::size_t> shape, std::span<const double> values,
+                                    const TransientScale& scale, double pulse_fwhm_s, int columns, int rows,
+                                    double reflectivity) {
+  require_reflectivity(reflectivity);
+  const auto [width, height] = transient_cube_size(shape);
+  const std::size_t bins = shape[2];
+  if (values.size() / bins != shape[0] * shape[1] || values.size() % bins != 0) {
+    throw InputError(fmt::format("shape ({}): a transient cube of this shape cannot have {} values",
+                                 fmt::join(shape, ", "), values.size()));
+  }
+  TargetMap map(columns, rows);
+  auto cube = std::make_shared<TransientCube>(columns, rows, scale);
+  // All values, also of pixels that the array does not have.
+  const auto wrong =
+      std::ranges::find_if(values, [](double value) { return !(value >= 0.0) || std::isinf(value); });
+  if (wrong != values.end()) {
+    const auto index = static_cast<std::size_t>(wrong - values.begin());
+    const std::size_t pixel = index / bins;
+    const auto across = static_cast<std::size_t>(width);
+    throw InputError(fmt::format("column {}, row {}, bin {}: {} is not a finite number of at least 0",
+                                 pixel % across, pixel / across, index % bins, *wrong));
+  }
+  for (int column = 0; column < columns; ++column) {
+    for (int row = 0; row < rows; ++row) {
+      const auto x = static_cast<std::size_t>(nearest(column, columns, width));
+      const auto y = static_cast<std::size_t>(nearest(row, rows, height));
+      cube->set(column, row, values.subspan((y * static_cast<std::size_t>(width) + x) * bins, bins));
+      const TransientReturn strongest = cube->strongest_return(column, row, pulse_fwhm_s);
+      if (strongest.events > 0.0 && !(strongest.distance_m > 0.0)) {
+        throw InputError(
+            fmt::format("column {}, row {}: the strongest return is at {:g} m, before the laser's shot; see "
+                        "the cube's start",
+                        x, y, strongest.distance_m));
+      }
+      map.at(column, row) = {.depth_m = strongest.distance_m, .reflectivity = reflectivity};
+    }
+  }
+  map.set_cube(std::move(cube));
   return map;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -54,6 +55,21 @@ TargetMap make_scene(Scene scene, const SceneParameters& parameters);
 /// Throws InputError for a wrong number of values or a negative depth.
 TargetMap scene_from_depth_image(int width, int height, std::span<const float> metres, int columns, int rows,
                                  double reflectivity = 1.0);
+
+/// Width and height of a transient cube of this shape. Throws InputError for no such shape.
+std::array<int, 2> transient_cube_size(std::span<const std::size_t> shape);
+
+/// Makes a scene from a transient cube: `values` of `shape` (rows, columns, bins), which may have a last axis
+/// of one element. Each value times `scale.events_per_unit` is the mean number of detected events of a pixel
+/// and pulse in its bin. The whole cube is resampled to the array by nearest neighbour.
+///
+/// A pixel's true distance is that of the centroid of its strongest return: the window of `pulse_fwhm_s` with
+/// the most events (TransientCube::strongest_return). A pixel without light has no target. `reflectivity`
+/// scales the sunlight alone. Throws InputError for another shape, a value that is negative or not finite, an
+/// illegal scale, and a strongest return before the laser's shot.
+TargetMap scene_from_transient_cube(std::span<const std::size_t> shape, std::span<const double> values,
+                                    const TransientScale& scale, double pulse_fwhm_s, int columns, int rows,
+                                    double reflectivity = 1.0);
 
 /// Sets every target's reflectivity from a map of width x height (`values` row by row, row 0 on top),
 /// resampled to the array by nearest neighbour. Throws InputError for a wrong number of values, or a value

@@ -314,6 +314,10 @@ class SensorReader {
     require("laser", "firing_offset_seed", offsets.bits > 0, "firing_offset_bits above 0");
     require("laser", "firing_offset_bits", offsets.bits == 0 || offsets.step_s > 0.0,
             "firing_offset_step_ns");
+    if (root_.contains("motion") && find("motion", "radial_velocity_m_per_s") == nullptr &&
+        find("motion", "columns_per_frame") == nullptr && find("motion", "rows_per_frame") == nullptr) {
+      fail_in("motion", "[motion] has no radial_velocity_m_per_s, columns_per_frame or rows_per_frame");
+    }
     if (root_.contains("pane") && find("pane", "transmittance") == nullptr) {
       around.pane.transmittance = kClearGlass;
     }

@@ -219,12 +219,21 @@ constexpr auto kNumbers = std::to_array<SensorNumberKey>({
      [](Draft& d, double v) { d.model.surroundings.other_laser.pulse_fwhm_s = v / kNano; },
      "that of the sensor's own", "full width at half maximum of its Gaussian pulse",
      "a pulse is shorter than the range"},
-    {"motion", "radial_velocity_m_per_s", Need::kWithSection, -1e4, kIncluded, 1e4, kReal,
-     [](Draft& d, double v) { d.model.surroundings.motion.velocity_m_per_s = v; }, "",
+    {"motion", "radial_velocity_m_per_s", Need::kNever, -1e4, kIncluded, 1e4, kReal,
+     [](Draft& d, double v) { d.model.surroundings.motion.velocity_m_per_s = v; }, "0",
      "of every target along its pixel's ray during the frame, above 0: away; its distance is that at the "
      "frame's "
      "middle",
      "faster than a bullet"},
+    {"motion", "columns_per_frame", Need::kNever, -1e3, kIncluded, 1e3, kReal,
+     [](Draft& d, double v) { d.model.surroundings.lateral.columns_per_frame = v; }, "0",
+     "how many of its columns the camera moves to the right during the frame, below 0: to the left; at the "
+     "frame's middle each pixel sees its own pixel of the scene",
+     "longer ways are several frames"},
+    {"motion", "rows_per_frame", Need::kNever, -1e3, kIncluded, 1e3, kReal,
+     [](Draft& d, double v) { d.model.surroundings.lateral.rows_per_frame = v; }, "0",
+     "how many of its rows the camera moves down during the frame, below 0: up",
+     "longer ways are several frames"},
 });
 
 constexpr auto kOthers = std::to_array<SensorOtherKey>({

@@ -108,7 +108,7 @@ std::vector<MalformedFile> MalformedTest::table() const {
       {"MAT without variables", "a.mat", mat5, "a.npy",
        " the variable \"photon_times\" is missing or damaged"},
       {"MAT cut in a variable", "a.mat", mat5 + std::string("\x0e\x00\x00\x00\xff\x00\x00\x00", 8), "a.npy",
-       " damaged: the variable at byte 128 ends beyond the file"},
+       " damaged: the variable at byte 128 ends beyond the file; \"photon_times\" was asked for"},
       {"MAT of a big-endian machine", "a.mat", mat5.substr(0, 124) + std::string("\x01\x00MI", 4), "a.npy",
        " not a little-endian MATLAB 5 file (save with -v7 or -v6)"},
       {"a map whose unknown pixels are -1", "a.npy", npy_of({1, 2}, {1.0, -1.0}), "a.pcd",

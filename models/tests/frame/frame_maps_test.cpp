@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace dtof {
 namespace {
@@ -54,6 +55,21 @@ TEST(FrameMaps, AResultWithoutConfidenceHasNoDistance) {
       EXPECT_EQ(bare.figures.without_distance, 0U);
     }
   }
+}
+
+TEST(FrameMaps, ResultsAtTheFirstReturnAreCounted) {
+  FrameMaps maps;
+  maps.depth = {1.02F, 1.05F, 3.0F, kUnknown, 1.0F};
+  count_first_returns(std::vector<float>{1.0F, 1.0F, 1.0F, 1.0F, kUnknown}, maps);
+  EXPECT_EQ(maps.figures.behind_another, 4U);
+  EXPECT_EQ(maps.figures.at_first_return, 1U);
+  FrameFigures both = maps.figures;
+  both.merge(maps.figures);
+  EXPECT_EQ(both.behind_another, 8U);
+  EXPECT_EQ(both.at_first_return, 2U);
+  FrameMaps without;
+  count_first_returns({}, without);
+  EXPECT_EQ(without.figures.behind_another, 0U);
 }
 
 TEST(Figures, AreOfTheJudgedPixelsOfAllFrames) {

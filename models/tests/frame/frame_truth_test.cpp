@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "dtof/core/error.hpp"
 
@@ -61,6 +63,28 @@ TEST(FrameTruth, WhatTheSensorCannotSeeIsCountedApart) {
   // A block of pixels has a distance though one of them is dead.
   sensor.binning = 2;
   EXPECT_EQ(frame_truth(targets, sensor, columns, {.first = 0, .count = 1}).dead, 0U);
+}
+
+TEST(FrameTruth, ACubeHasAFirstReturnBesideItsTruth) {
+  // The truth at 3 m; an earlier return at 1.5 m, none, and one that is too near to the truth to tell.
+  TargetMap targets(3, 1, {.depth_m = 3.0, .reflectivity = 1.0});
+  auto cube = std::make_shared<TransientCube>(3, 1, TransientScale{.bin_width_s = 0.1e-9});
+  std::vector<double> events(400, 0.0);
+  events[200] = 3.0;
+  cube->set(1, 0, events);
+  events[100] = 1.0;
+  cube->set(0, 0, events);
+  events[100] = 0.0;
+  events[185] = 1.0;
+  cube->set(2, 0, events);
+  const std::array<int, 3> columns = {0, 1, 2};
+  EXPECT_TRUE(frame_truth(targets, SensorModel(), columns, {.first = 0, .count = 1}).first_return.empty());
+  targets.set_cube(cube);
+  SensorModel sensor;
+  sensor.pulse_fwhm_s = 0.5e-9;
+  const FrameTruth truth = frame_truth(targets, sensor, columns, {.first = 0, .count = 1});
+  EXPECT_THAT(truth.metres, ElementsAre(3.0F, 3.0F, 3.0F));
+  EXPECT_THAT(truth.first_return, ElementsAre(testing::FloatNear(1.5064F, 1e-3F), IsNan(), IsNan()));
 }
 
 TEST(Reachable, NeedsOneTargetInRange) {

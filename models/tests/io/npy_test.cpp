@@ -65,6 +65,17 @@ TEST_F(NpyTest, ReadsEveryDtype) {
   check("<u8", bytes<std::uint64_t>({1, 1ULL << 53U}), 1, 9007199254740992.0);
 }
 
+TEST_F(NpyTest, ReadsShapesOfPython2) {
+  const std::string data = bytes<double>({1, 2, 3, 4, 5, 6});
+  const NpyArray array = read(npy(header("<f8", "(2L, 3L)"), data));
+  EXPECT_THAT(array.shape, ElementsAre(2U, 3U));
+  EXPECT_THAT(array.values, ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(read(npy(header("<f8", "(6L,)"), data)).shape, ElementsAre(6U));
+  EXPECT_THAT(read(npy(header("<f8", "(2L, 3)"), data)).shape, ElementsAre(2U, 3U));
+  refused(npy(header("<f8", "(99999999999999999999L,)"), data),
+          "the NPY shape (99999999999999999999L,) is too large");
+}
+
 TEST_F(NpyTest, ReadsBothByteOrders) {
   const auto swapped = [](const auto& values) {
     std::string result = bytes(values);
@@ -152,7 +163,10 @@ TEST_F(NpyTest, Refusals) {
   refused(npy("{'descr': '<f8', 'shape': (2,), }", two), "the NPY header has no readable 'fortran_order'");
   refused(npy("{'descr': '<f8', 'fortran_order': Maybe, 'shape': (2,), }", two),
           "the NPY header has no readable 'fortran_order'");
-  refused(npy(header("<f8", "(-2,)"), two), "the NPY header has no readable 'shape'");
+  for (const char* shape : {"(-2,)", "(L,)", "(2LL,)", "(2l,)", "(2L3,)", "(2.0,)"}) {
+    SCOPED_TRACE(shape);
+    refused(npy(header("<f8", shape), two), "the NPY header has no readable 'shape'");
+  }
   refused(npy(header("<f8", "(3,)"), two),
           "shape (3) of f8 needs more than the file's 2 elements: truncated");
   refused(npy(header("<f8", "(2,)"), two.substr(0, 15)),

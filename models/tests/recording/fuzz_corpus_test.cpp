@@ -19,6 +19,7 @@
 #include "dtof/recording/recording.hpp"
 #include "dtof/recording/tmf8820_json.hpp"
 #include "dtof/recording/tmf8829_json.hpp"
+#include "dtof/recording/transient_file.hpp"
 
 namespace dtof {
 namespace {
@@ -66,6 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                            }},
                     Reader{"result_csv", [](const auto& file) { (void)read_result_csv(file); }},
                     Reader{"histogram_npy", [](const auto& file) { (void)read_npy(file); }},
+                    Reader{"transient_cube", [](const auto& file) { (void)read_transient_file(file); }},
                     Reader{"photon_times_mat", [](const auto& file) { (void)read_photon_times_mat(file); }},
                     Reader{"tmf8820_json", [](const auto& file) { (void)read_tmf8820_json(file); }},
                     Reader{"tmf8829_json", [](const auto& file) { (void)read_tmf8829_json(file); }},

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "dtof/recording/recording.hpp"
 #include "tests/io/io_test_support.hpp"
 
 namespace dtof {
@@ -172,7 +173,26 @@ TEST_F(PhotonTimesTest, DamagedCompressionIsRefused) {
   whole[160] = static_cast<char>(whole[160] ^ 1);
   test::expect_input_error(
       [&] { (void)read_photon_times_mat(write("t.mat", whole)); },
-      EndsWith("t.mat: damaged: the variable at byte 128 does not decompress, or not to 1 GiB at most"));
+      EndsWith("t.mat: damaged: the variable at byte 128 does not decompress, or not to 1 GiB at most; "
+               "\"photon_times\" was asked for"));
+}
+
+TEST_F(PhotonTimesTest, RefusalsOfHistogramsNameTheVariable) {
+  mat_t* const file = Mat_CreateVer(path("h.mat").c_str(), nullptr, MAT_FT_MAT5);
+  std::array<std::size_t, 3> dims = {1, 1, 2};
+  std::array<double, 2> counts = {1.0, -1.0};
+  matvar_t* const cube =
+      Mat_VarCreate("counts", MAT_C_DOUBLE, MAT_T_DOUBLE, 3, dims.data(), counts.data(), 0);
+  Mat_VarWrite(file, cube, MAT_COMPRESSION_NONE);
+  Mat_VarFree(cube);
+  Mat_Close(file);
+  const std::string name = path("h.mat").string();
+  for (const RecordingOptions& options :
+       {RecordingOptions{.file = name, .bin_width_s = 1e-9, .variable = "counts"},
+        RecordingOptions{.file = name + ":counts", .bin_width_s = 1e-9}}) {
+    test::expect_input_error([&] { (void)open_recorded_data(options, read_recording(options)); },
+                             HasSubstr("h.mat:counts: column 0, row 0, bin 1"));
+  }
 }
 
 TEST_F(PhotonTimesTest, OtherMatlabVersionsAreRefused) {

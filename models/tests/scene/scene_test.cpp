@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/physical_constants.hpp"
 
 namespace dtof {
 namespace {
@@ -309,6 +310,44 @@ TEST(ReflectivityMap, IsResampledToTheNearestPixelAndKeepsDistances) {
   EXPECT_THAT(refusal([&] { set_reflectivity(map, 3, 1, values); }), HasSubstr("4 values"));
   const std::array<float, 1> negative = {-0.5F};
   EXPECT_THAT(refusal([&] { set_reflectivity(map, 1, 1, negative); }), HasSubstr("-0.5"));
+}
+
+TEST(TransientScene, HasTheStrongestReturnAsItsTruthAndIsResampled) {
+  // 1 row, 3 columns, 6 bins of 1 ns: nothing, one return, a weak one before a strong one.
+  const std::vector<double> events = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 0, 1, 0, 0, 0, 2, 0};
+  const std::array<std::size_t, 3> shape = {1, 3, 6};
+  const TransientScale scale{.bin_width_s = 1e-9, .start_s = 10e-9, .events_per_unit = 0.01};
+  const TargetMap map = scene_from_transient_cube(shape, events, scale, 1e-9, 6, 2, 0.3);
+  const double metres_per_ns = 0.5e-9 * kSpeedOfLight;
+  for (int column = 0; column < 6; ++column) {
+    SCOPED_TRACE(column);
+    EXPECT_EQ(map.returns_signal(column, 1), column >= 2);
+    EXPECT_EQ(map.at(column, 1).reflectivity, 0.3);
+    EXPECT_NEAR(map.at(column, 1).depth_m, column < 2 ? 0.0 : 14.5 * metres_per_ns, 1e-9);
+    EXPECT_DOUBLE_EQ(map.cube()->light(column, 1).events(), column < 2 ? 0.0 : column < 4 ? 0.04 : 0.03);
+  }
+  EXPECT_NEAR(map.cube()->first_return(5, 0, 1e-9).distance_m, 10.5 * metres_per_ns, 1e-9);
+  // Without sunlight the laser's light remains.
+  EXPECT_TRUE(scene_from_transient_cube(shape, events, scale, 1e-9, 3, 1, 0.0).returns_signal(1, 0));
+  // A last axis of one element is no axis.
+  const std::array<std::size_t, 4> channel = {1, 3, 6, 1};
+  EXPECT_EQ(scene_from_transient_cube(channel, events, scale, 1e-9, 3, 1).at(1, 0).depth_m,
+            map.at(2, 0).depth_m);
+}
+
+TEST(TransientScene, RefusesBadCubes) {
+  const TransientScale scale{.bin_width_s = 1e-9};
+  const auto with = [&](std::vector<std::size_t> shape, std::vector<double> events) {
+    return refusal([&] { (void)scene_from_transient_cube(shape, events, scale, 1e-9, 2, 2); });
+  };
+  EXPECT_THAT(with({2, 2}, std::vector<double>(4)),
+              HasSubstr("shape (2, 2): a transient cube has rows, columns"));
+  EXPECT_THAT(with({1, 1, 2, 3}, std::vector<double>(6)), HasSubstr("no colours"));
+  EXPECT_THAT(with({0, 1, 2}, {}), HasSubstr("1 to 65535 rows and columns"));
+  EXPECT_THAT(with({1, 1, 2}, std::vector<double>(3)), HasSubstr("cannot have 3 values"));
+  // Also where the array does not look.
+  EXPECT_THAT(with({1, 5, 1}, {1, 1, 1, 1, -1}), HasSubstr("column 4, row 0, bin 0: -1"));
+  EXPECT_THAT(with({1, 1, 2}, {0, kNan}), HasSubstr("column 0, row 0, bin 1: nan"));
 }
 
 TEST(DepthImageScene, RefusesBadImages) {

@@ -153,7 +153,7 @@ TEST(SensorFile, SurroundingsReachTheModel) {
       "[fog]\nextinction_per_m = 0.1\nlidar_ratio_sr = 40\noverlap_m = 0.2\n"
       "[pane]\ndistance_m = 1.5\nreflectivity = 0.02\ntransmittance = 0.8\n"
       "[other_laser]\nevents = 0.3\nrate_offset_ppm = -6\nfirst_arrival_ns = 20\npulse_fwhm_ns = 3\n"
-      "[motion]\nradial_velocity_m_per_s = -7\n";
+      "[motion]\nradial_velocity_m_per_s = -7\ncolumns_per_frame = 3.5\nrows_per_frame = -2\n";
   const SensorModel sensor = parse_sensor(text, "my.toml");
   EXPECT_DOUBLE_EQ(sensor.pulse_period(), 2e-6);
   const Surroundings expected = {
@@ -165,6 +165,7 @@ TEST(SensorFile, SurroundingsReachTheModel) {
                       .first_arrival_s = 20.0 / 1e9,
                       .pulse_fwhm_s = 3.0 / 1e9},
       .motion = {.velocity_m_per_s = -7.0},
+      .lateral = {.columns_per_frame = 3.5, .rows_per_frame = -2.0},
       .settling = {.silent_share = 0.1,
                    .power_drop = 0.3,
                    .delay_s = -70.0 / 1e12,
@@ -198,6 +199,11 @@ TEST(SensorFile, SurroundingsThatCannotBeAreRefusedWithTheLine) {
   EXPECT_THAT(section("[other_laser]\nrate_offset_ppm = 6\n"), HasSubstr("[other_laser] has no events"));
   EXPECT_THAT(section("[motion]\nradial_velocity_m_per_s = nan\n"),
               HasSubstr("radial_velocity_m_per_s is nan"));
+  EXPECT_THAT(section("[motion]\n"),
+              HasSubstr("[motion] has no radial_velocity_m_per_s, columns_per_frame or rows_per_frame"));
+  EXPECT_EQ(section("[motion]\nrows_per_frame = 1\n"), "accepted");
+  EXPECT_THAT(section("[motion]\nrows_per_frame = 1e4\n"),
+              HasSubstr("rows_per_frame is 10000, but must be -1000 to 1000"));
   EXPECT_THAT(section("[mist]\n"), HasSubstr("unknown section 'mist'"));
   EXPECT_THAT(section("[cover_glass]\ncrosstalk_event = 1\n"), HasSubstr("did you mean 'crosstalk_events'"));
   const auto laser = [](const std::string& keys) { return refusal(with("[laser]", "[laser]\n" + keys)); };

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/recording/transient_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "dtof/container/array_address.hpp"
+#include "dtof/container/hdf5_array.hpp"
+#include "dtof/container/npz.hpp"
+#include "dtof/io/input_file.hpp"
+#include "dtof/recording/recording.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr std::array kTimeAxis = {kTransientBinWidthName, kBinWidthName, kTransientStartName};
+
+/// Name of an array without the groups that it lies in.
+std::string_view last_part(std::string_view name) { return name.substr(name.rfind('/') + 1); }
+
+/// The group of an array: "/scene/" of "/scene/cube".
+std::string_view group_of(std::string_view name) { return name.substr(0, name.rfind('/') + 1); }
+
+/// The archive's only array that is no part of a time axis.
+std::string only_cube(const std::filesystem::path& path, const std::vector<std::string>& names) {
+  std::vector<std::string> cubes;
+  std::ranges::copy_if(names, std::back_inserter(cubes), [](const std::string& name) {
+    return std::ranges::find(kTimeAxis, last_part(name)) == kTimeAxis.end();
+  });
+  if (cubes.empty()) {
+    fail_in_file(path, "the file has no array of numbers that could be a transient cube");
+  }
+  if (cubes.size() > 1) {
+    fail_in_file(path, fmt::format("the file has {} arrays ({}); name one, as {}:{}", cubes.size(),
+                                   fmt::join(cubes, ", "), path.string(), cubes.front()));
+  }
+  return cubes.front();
+}
+
+/// Reads the cube `name` (empty: the only one) and the time axis beside it.
+TransientFile read_members(const std::filesystem::path& path, std::string name,
+                           const std::vector<std::string>& names,
+                           const std::function<NpyArray(const std::string&)>& read) {
+  if (name.empty()) {
+    name = only_cube(path, names);
+  }
+  TransientFile file{.array = read(name), .bin_width_s = std::nullopt, .start_s = std::nullopt};
+  const auto number = [&](std::string_view member) -> std::optional<double> {
+    const std::string beside = fmt::format("{}{}", group_of(name), member);
+    if (std::ranges::find(names, beside) == names.end()) {
+      return std::nullopt;
+    }
+    const NpyArray array = read(beside);
+    if (array.values.size() != 1) {
+      fail_in_file(path, fmt::format("{} has {} numbers instead of one", beside, array.values.size()));
+    }
+    return array.values.front();
+  };
+  file.bin_width_s = number(kTransientBinWidthName);
+  if (!file.bin_width_s) {
+    if (const std::optional<double> picoseconds = number(kBinWidthName)) {
+      file.bin_width_s = *picoseconds * 1e-12;
+    }
+  }
+  file.start_s = number(kTransientStartName);
+  return file;
+}
+
+}  // namespace
+
+TransientFile read_transient_file(const std::string& name) {
+  const auto [path, array] = parse_array_address(name);
+  if (is_hdf5(path)) {
+    // A name may lack the slash in front.
+    const std::string wanted = array.empty() || array.starts_with('/') ? array : "/" + array;
+    return read_members(path, wanted, hdf5_names(path),
+                        [&](const std::string& member) { return read_hdf5_array(path, member); });
+  }
+  const std::string contents = unpack_gzip(path, read_file(path), kLongestFile);
+  if (is_zip(contents)) {
+    return read_members(path, array, npz_names(path, contents),
+                        [&](const std::string& member) { return parse_npz(path, contents, member); });
+  }
+  if (contents.starts_with("\x93NUMPY")) {
+    return {.array = parse_npy(path, contents), .bin_width_s = std::nullopt, .start_s = std::nullopt};
+  }
+  fail_in_file(path, "a transient cube is an NPY, NPZ or HDF5 file");
+}
+
+}  // namespace dtof
