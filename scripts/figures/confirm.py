@@ -2,7 +2,8 @@
 """Small runs that confirm a report. A command that runs with SMALL=1 does the same steps on less work, and its files are the same bytes in
 every run. While a report is fresh, the digest of these files is stored with the report's inputs. After a change of the inputs, the same
 digest says that the change altered nothing that the small run reaches. Such a report is confirmed: it is not stale, and its pages say
-on which commits it was measured and confirmed."""
+which inputs have changed. A report may name another command that confirms it (`confirm` in its entry), and the inputs that the command's
+output stands for; then no other input may have changed."""
 
 import hashlib
 import os
@@ -11,7 +12,7 @@ import tomllib
 from pathlib import Path
 
 from . import staleness
-from .reports import Report, inputs
+from .reports import Report, inputs, not_covered
 from .small import FOLDER
 from .source_tree import SourceTree
 
@@ -20,6 +21,8 @@ TRIALS = "scripts/try_targets.toml"
 
 def why_not(root: Path, report: Report) -> str:
     """Why a small run of the report's command can confirm nothing; empty if it can."""
+    if report.confirm:
+        return ""
     words = report.command.split()
     path = root / TRIALS
     trials = tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
@@ -45,8 +48,14 @@ def digest_of_files(folder: Path, report: Report) -> str:
 
 
 def small_run(root: Path, report: Report) -> str | None:
-    """Runs the report's command on little work; returns the digest of its files, or None if it fails."""
+    """Runs the report's command on little work, or the one that confirms it; returns the digest of what it writes, or None if it fails."""
     folder = root / FOLDER
+    if report.confirm:
+        folder.mkdir(parents=True, exist_ok=True)
+        with (folder / f"{report.name}.log").open("w", encoding="utf-8") as log:
+            told = subprocess.run(report.confirm, shell=True, cwd=root, stdout=subprocess.PIPE, stderr=log)
+        rest = not_covered(report, SourceTree(root))
+        return hashlib.sha256(told.stdout + rest.encode()).hexdigest()[:16] if told.returncode == 0 and told.stdout else None
     for name in report.written:
         (folder / name).unlink(missing_ok=True)
     folder.mkdir(parents=True, exist_ok=True)
@@ -71,13 +80,13 @@ def confirm(root: Path, report: Report) -> str:
         return "fresh"
     digest = small_run(root, report)
     if digest is None:
-        return f"not confirmed: `{report.command} SMALL=1` failed, see {FOLDER}/{report.name}.log"
+        return f"not confirmed: `{staleness.confirming(report)}` failed, see {FOLDER}/{report.name}.log"
     if inputs(report, SourceTree(root)).digest != now.digest:
         return "not confirmed: its inputs changed while the small run was made"
     if not stale:
         staleness.store_small(root, report, digest)
         return "fresh: the digest of its small run is stored"
     if digest != known.small:
-        return f"stale: the small run writes other bytes than before, `{report.command}` renews it"
+        return f"stale: `{staleness.confirming(report)}` writes other bytes than before, `{report.command}` renews it"
     staleness.store_confirmed(root, report, now)
-    return "confirmed: the small run writes the same bytes as before"
+    return f"confirmed: `{staleness.confirming(report)}` writes the same bytes as before"

@@ -29,6 +29,8 @@ class Report:
     data: tuple[str, ...] = ()
     first: bool = False  # the page of results of `make report` shows it
     after: tuple[str, ...] = ()  # reports whose files it reads
+    confirm: str = ""  # a command that prints all that the report takes from `confirm_covers`; without it the small run confirms
+    confirm_covers: tuple[str, ...] = ()
 
     @property
     def written(self) -> tuple[str, ...]:
@@ -75,13 +77,14 @@ def studies(root: Path) -> dict[str, dict]:
 
 
 def _report(name: str, entry: dict, groups: dict[str, list[str]], where: str) -> Report:
-    known = {"command", "minutes", "pages", "files", "inputs", "data", "first"}
+    known = {"command", "minutes", "pages", "files", "inputs", "data", "first", "confirm", "confirm_covers"}
     if wrong := entry.keys() - known:
         raise ReportsError(f"{where}: unknown key '{min(wrong)}'")
     if missing := {"command", "minutes", "pages", "inputs"} - entry.keys():
         raise ReportsError(f"{where}: the key '{min(missing)}' is missing")
     return Report(name, entry["command"], entry["minutes"], tuple(entry["pages"]), _expanded(entry["inputs"], groups, name),
-                  tuple(entry.get("files", ())), tuple(entry.get("data", ())), entry.get("first", False))
+                  tuple(entry.get("files", ())), tuple(entry.get("data", ())), entry.get("first", False), confirm=entry.get("confirm", ""),
+                  confirm_covers=_expanded(entry.get("confirm_covers", []), groups, name))
 
 
 def load(root: Path) -> dict[str, Report]:
@@ -115,9 +118,18 @@ def load(root: Path) -> dict[str, Report]:
 
 
 def input_files(report: Report, tree: SourceTree) -> set[str]:
+    return _files(report.inputs, tree)
+
+
+def not_covered(report: Report, tree: SourceTree) -> str:
+    """Digest of the inputs that `confirm_covers` leaves out."""
+    return _hash(sorted(tree.digest(name) for name in _files(report.inputs, tree) - _files(report.confirm_covers, tree)))[:16]
+
+
+def _files(patterns: tuple[str, ...], tree: SourceTree) -> set[str]:
     found: set[str] = set()
     left_out: set[str] = set()
-    for pattern in report.inputs:
+    for pattern in patterns:
         if pattern.startswith("!"):
             left_out.update(tree.matching(pattern[1:]))
             continue

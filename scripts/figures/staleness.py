@@ -173,6 +173,11 @@ def changed_files(root: Path, one: Stale, tree: SourceTree) -> list[str]:
 
 # ---- Pages -----------------------------------------------------------------------------------------------
 
+def confirming(report: Report) -> str:
+    """Command whose output confirms the report."""
+    return report.confirm or f"{report.command} SMALL=1"
+
+
 def first_lines(root: Path, reports: dict[str, Report], tree: SourceTree) -> dict[str, str]:
     """First line of the pages of each report that is stale or confirmed."""
     known = measured(root)
@@ -183,7 +188,7 @@ def first_lines(root: Path, reports: dict[str, Report], tree: SourceTree) -> dic
             lines[name] = one.line
         elif now.digest != known[name].digest:
             lines[name] = (f"{CONFIRMED_MARK}changes in {_named(_changed_places(known[name], now))} since this page was measured. "
-                           f"`{report.command} SMALL=1` writes the same bytes before and after these changes.")
+                           f"`{confirming(report)}` writes the same bytes before and after these changes.")
     return lines
 
 

@@ -48,7 +48,7 @@ class Confirmations(Project):
     def test_a_change_that_alters_a_byte_stays_stale(self) -> None:
         self.confirm()
         self.change("2")
-        self.assertIn("stale: the small run writes other bytes", self.confirm())
+        self.assertIn("stale: `make pareto SMALL=1` writes other bytes", self.confirm())
         self.assertIn("pareto", self.stale())
 
     def test_what_is_confirmed_is_stale_after_the_next_change_and_is_compared_with_the_measurement(self) -> None:
@@ -81,3 +81,18 @@ class Confirmations(Project):
         self.measure("pareto")
         self.assertEqual(self.line(), "")
         self.assertEqual(staleness.measured(self.root)["pareto"].confirmed, "")
+
+    def test_another_command_confirms_what_it_stands_for_and_nothing_else(self) -> None:
+        text = (self.root / "reports/reports.toml").read_text(encoding="utf-8")
+        self.write("reports/reports.toml", text.replace('files = ["area.csv"]', 'files = ["area.csv"]\nconfirm = "cat synth/helper.py"\n'
+                                                        'confirm_covers = ["synth/*"]'))
+        self.measure()
+        self.assertEqual(self.confirm("area"), "fresh: the digest of its small run is stored")
+        self.write("synth/flow.py", "import helper\nfrom parts import adder\n\nprint(2)\n")
+        self.assertEqual(self.confirm("area"), "confirmed: `cat synth/helper.py` writes the same bytes as before")
+        self.assertIn("`cat synth/helper.py` writes the same bytes before and after", self.line("area"))
+        self.write("synth/helper.py", "VALUE = 2\n")
+        self.assertIn("writes other bytes than before", self.confirm("area"))
+        self.write("synth/helper.py", FILES["synth/helper.py"])
+        self.write("hdl/a.sv", "module a; wire w; endmodule\n")  # which the command does not stand for
+        self.assertIn("writes other bytes than before", self.confirm("area"))
