@@ -26,7 +26,7 @@ from .run import TARGET_MHZ, Technology, rtl_files
 
 BENCH = "dtof_subsystem_bench"
 SCENE, KLUX = "room", 50.0
-ACQUISITIONS = 4
+ACQUISITIONS = 2
 MOST_RESULTS = 200
 MOST_CLOCKS = 60_000
 _BIT = re.compile(r"(\w+)\[(\d+)\]")
@@ -56,32 +56,55 @@ class SubsystemPower:
     clocks: dict[str, int]  # simulated, by phase
 
 
-def _wire(name: str, widths: dict[str, int]) -> str:
-    """Wire of the wrapper for a bit of a port, `port` or `port[bit]`; `widths` follows."""
+def _port_and_bit(name: str) -> tuple[str, int]:
+    """Of `port` or `port[bit]`."""
     found = _BIT.fullmatch(name)
-    port, bit = (found[1], int(found[2])) if found else (name, 0)
-    widths[port] = max(widths.get(port, 0), bit + 1)
-    return f"{port}_bits[{bit}]"
+    return (found[1], int(found[2])) if found else (name, 0)
 
 
 def array_wrapper(configuration: Configuration, ports: Ports, others: list[tuple[str, bool]]) -> str:
     """Module with the stand-in's pins around the array's RTL. Inputs that the array does not use are 0. `others`: pins without times, and
     whether they are outputs."""
     pins = {port.name: port.is_output for port in ports.timed[array_stand_in.MODES[0]]} | dict(others) | {array_stand_in.CLOCK: False}
-    widths: dict[str, int] = {}
-    assigned = []
-    for name, is_output in pins.items():
-        pin, wire = array_stand_in.plain(name), _wire(name, widths)
-        assigned.append(f"  assign {pin} = {wire};" if is_output else f"  assign {wire} = {pin};")
-    assigned += [f"  assign {_wire(name, widths)} = 1'b0;" for name in sorted(ports.unused - pins.keys())]
-    for name in ports.constant:
-        _wire(name, widths)
+    bits: dict[str, dict[int, str]] = {}  # of each port: what is connected
+    for name in [*pins, *sorted(ports.constant), *sorted(ports.unused)]:
+        port, bit = _port_and_bit(name)
+        bits.setdefault(port, {})[bit] = array_stand_in.plain(name) if name in pins else ""
+    outputs = {_port_and_bit(name)[0] for name in [*(name for name, is_output in pins.items() if is_output), *ports.constant]}
+    wires = []
+    for port, connected in bits.items():
+        width = max(connected) + 1
+        if port in outputs:
+            wires.append(f"  wire [{width - 1}:0] {port}_bits;")
+            wires += [f"  assign {pin} = {port}_bits[{bit}];" for bit, pin in connected.items() if pin]
+        else:  # a single assignment: Icarus Verilog would evaluate the whole vector for each bit that is assigned alone
+            ordered = ", ".join(connected.get(bit, "") or "1'b0" for bit in reversed(range(width)))
+            wires.append(f"  wire [{width - 1}:0] {port}_bits = {{{ordered}}};")
     declared = ",\n".join(f"    {'output' if is_output else 'input'} wire {array_stand_in.plain(name)}" for name, is_output in pins.items())
     settings = ", ".join(f".{name}({value})" for name, value in configuration.rtl_parameters().items())
-    connections = ", ".join(f".{port}({port}_bits)" for port in widths)
-    return "\n".join(["// SPDX-License-Identifier: Apache-2.0", "// Generated.", f"module {array_stand_in.CELL} (\n{declared}\n);",
-                      *(f"  wire [{width - 1}:0] {port}_bits;" for port, width in widths.items()), *assigned,
+    connections = ", ".join(f".{port}({port}_bits)" for port in bits)
+    return "\n".join(["// SPDX-License-Identifier: Apache-2.0", "// Generated.", f"module {array_stand_in.CELL} (\n{declared}\n);", *wires,
                       f"  {configuration.top} #({settings}) u_array ({connections});", "endmodule", ""])
+
+
+def split_ports(design: dict) -> None:
+    """Replaces each port of several bits by ports of one bit, except those of the top. Icarus Verilog evaluates a whole vector for each bit that a
+    cell drives, and a line has 2,000 bits."""
+    own = {name for name, module in netlist.modules(design).items() if module["cells"] and module is not netlist.top(design)}
+    for name in own:
+        module = netlist.modules(design)[name]
+        module["ports"] = {bit_name: {**port, "bits": [bit]} for port_name, port in module["ports"].items()
+                           for bit_name, bit in _single_bits(port_name, port["bits"])}
+    for module in netlist.modules(design).values():
+        for cell in module["cells"].values():
+            if cell["type"] in own:
+                cell["port_directions"] = {bit_name: cell["port_directions"][pin] for pin, bits in cell["connections"].items()
+                                           for bit_name, _ in _single_bits(pin, bits)}
+                cell["connections"] = {bit_name: [bit] for pin, bits in cell["connections"].items() for bit_name, bit in _single_bits(pin, bits)}
+
+
+def _single_bits(name: str, bits: list) -> list[tuple[str, int | str]]:
+    return [(name, bits[0])] if len(bits) == 1 else [(f"{name}_{index}_", bit) for index, bit in enumerate(bits)]
 
 
 def simulate(design: dict, configuration: Configuration, ports: Ports, others: list[tuple[str, bool]], technology: Technology,
@@ -91,6 +114,7 @@ def simulate(design: dict, configuration: Configuration, ports: Ports, others: l
     root, drawn = technology.root, random.Random(seed)
     for name in [name for name, module in netlist.modules(design).items() if not module["cells"]]:
         del netlist.modules(design)[name]  # black boxes, of which the RTL has the modules
+    split_ports(design)
     activity.name_for_counting(design)
     kinds = netlist.cell_kinds(design, technology.slow)
     netlist.prepare_simulation(design, technology.slow, simulation.NETLIST_SUFFIX, cell_models.POWER_UP, lambda: drawn.random() < 0.5)

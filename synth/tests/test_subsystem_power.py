@@ -37,9 +37,9 @@ class Wrapper(unittest.TestCase):
         ports = Ports({mode: [Port("d_i[0]", False, 0, 0), Port("d_i[2]", False, 0, 0), Port("q_o", True, 0, 0)] for mode in MODES},
                       {"state_o[1]"}, {"d_i[1]", "raw_i"})
         text = subsystem_power.array_wrapper(named, ports, [("sram_cfg_o", True)])
-        for line in ("    input wire d_i_0_,", "    output wire q_o,", "  wire [2:0] d_i_bits;", "  assign d_i_bits[2] = d_i_2_;",
-                     "  assign q_o = q_o_bits[0];", "  assign d_i_bits[1] = 1'b0;", "  assign raw_i_bits[0] = 1'b0;",
-                     "  wire [1:0] state_o_bits;", "  assign clk_i_bits[0] = clk_i;"):
+        for line in ("    input wire d_i_0_,", "    output wire q_o,", "  wire [2:0] d_i_bits = {d_i_2_, 1'b0, d_i_0_};",
+                     "  assign q_o = q_o_bits[0];", "  wire [0:0] raw_i_bits = {1'b0};", "  wire [1:0] state_o_bits;",
+                     "  wire [0:0] clk_i_bits = {clk_i};"):
             self.assertIn(f"\n{line}", text)
         self.assertIn(".PIXELS_PER_SRAM(160)", text)
         self.assertIn(".state_o(state_o_bits)", text)
