@@ -53,7 +53,7 @@ std::vector<DesignOption> two_options() {
 }
 
 TEST(DesignPage, TheTableHasAReadoutALineBestFirst) {
-  const std::string text = design_table(request(), result(request(), two_options()));
+  const std::string text = design_rows(request(), result(request(), two_options())).markdown();
   EXPECT_THAT(text, HasSubstr("1.00 [0.50, 1.50]"));
   EXPECT_THAT(text, HasSubstr("87.5"));
   EXPECT_THAT(text, HasSubstr("0.05"));
@@ -102,7 +102,7 @@ TEST(DesignPage, SeveralArraysAreSaidEverywhere) {
   wide.candidate.array.arrays = 2;
   const DesignRequest made = request();
   const DesignResult found = result(made, {wide});
-  EXPECT_THAT(design_table(made, found), HasSubstr("SiFH, 2 arrays of 160 columns"));
+  EXPECT_THAT(design_rows(made, found).markdown(), HasSubstr("SiFH, 2 arrays of 160 columns"));
   EXPECT_EQ(design_product(made, found, "mine.toml"),
             "dtof product --sensor mine.toml --readout sifh --out chip  # with columns = 160 in the sensor "
             "file, 2 times");

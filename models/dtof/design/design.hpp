@@ -24,11 +24,16 @@ struct DesignRequest {
   /// read-outs. The budgets set the number of pixels of a frame.
   double screening_work = 4e10;
   double final_work = 4e10;
+  bool detection = true;  ///< measure P_d and P_fa
   /// Rivals to read beside the read-outs, from the photons of the same pixels and frames.
   std::span<const RivalEntry> rivals;
   /// Observes the steps of the work. Without an observer, progress is shown on standard error.
   std::function<void(std::string_view step, std::size_t done, std::size_t total)> observer;
 };
+
+/// The request with a twentieth of the pixels, and without P_d, P_fa and rivals (`--quick`, and the
+/// playground's page).
+DesignRequest quick_design(DesignRequest request);
 
 /// A read-out none of whose parameters meet the limits, and why.
 struct LeftOut {

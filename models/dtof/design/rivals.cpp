@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -28,7 +29,7 @@ using Measurements = std::vector<std::vector<Measurement>>;
 
 /// Lowest threshold above 0 that at most `share` of the sky's pixels reach.
 double sky_threshold(std::vector<double> confidences, double share) {
-  std::ranges::sort(confidences, std::ranges::greater());
+  std::ranges::sort(confidences, std::greater<>());
   const auto passing = static_cast<std::size_t>(share * static_cast<double>(confidences.size()));
   const double highest_refused = passing < confidences.size() ? confidences[passing] : 0.0;
   return std::nextafter(std::max(highest_refused, 0.0), std::numeric_limits<double>::infinity());
