@@ -14,7 +14,7 @@
 namespace dtof {
 namespace {
 
-constexpr double kPerCent = 100.0;
+constexpr double kInPerCent = 100.0;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void write_design_picture(const std::filesystem::path& path, const DesignRequest
   for (const DesignOption& option : result.options) {
     constexpr double kLeastShown = 1e-4;  // of pixels: a logarithmic axis has no 0
     const double share = std::max(option.best_known().worst().above_3_percent.value, kLeastShown);
-    points[option.candidate.readout()].emplace_back(option.candidate.cost.mm2, kPerCent * share);
+    points[option.candidate.readout()].emplace_back(option.candidate.cost.mm2, kInPerCent * share);
     least = std::min(least, share);
     most = std::max(most, share);
   }
@@ -43,7 +43,7 @@ void write_design_picture(const std::filesystem::path& path, const DesignRequest
   if (std::isfinite(request.limits.most_mm2)) {
     series.push_back({.label = "limit of area",
                       .x = {request.limits.most_mm2, request.limits.most_mm2},
-                      .y = {kPerCent * least, kPerCent * most}});
+                      .y = {kInPerCent * least, kInPerCent * most}});
   }
   write_plot(
       path, series,

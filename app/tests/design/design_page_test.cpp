@@ -109,7 +109,8 @@ TEST(DesignPage, SeveralArraysAreSaidEverywhere) {
 }
 
 RivalOption rival(std::string_view name, double share) {
-  RivalOption made{.entry = &find_rival(name), .bits_per_pixel = 256, .frames = 3, .memory_mm2 = 2.345};
+  RivalOption made{
+      .entry = &find_rival(name), .bits_per_pixel = 256, .frames = 3, .memory_mm2 = 2.345, .score = {}};
   made.score = option(Readout::kSifh, share, 1.0).screened;
   return made;
 }

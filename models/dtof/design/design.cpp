@@ -153,12 +153,14 @@ std::vector<LeftOut> left_out(std::span<const DesignCandidate> candidates, const
   return found;
 }
 
-/// Reads the rivals with the effort of the read-outs' comparison.
-void add_rivals(const DesignRequest& request, const BenchEffort& effort, DesignResult& result) {
+/// Reads the rivals. `effort`: of the read-outs' comparison.
+void add_rivals(const DesignRequest& request, BenchEffort effort, DesignResult& result) {
   RivalChoice choice = choose_rivals(request.rivals, request.bench.sensor, request.limits.most_mm2);
   result.rivals_left_out = std::move(choice.left_out);
   result.rivals = std::move(choice.options);
   if (!result.rivals.empty()) {
+    effort.pixels =
+        std::min(effort.pixels, pixels_of(request.rival_work, result.rivals.size(), request, effort.frames));
     const auto progress = make_progress(request, "rivals", rival_steps(request.bench, effort));
     read_rivals(request.bench, result.rivals, effort, progress.get());
   }

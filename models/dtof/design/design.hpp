@@ -24,8 +24,10 @@ struct DesignRequest {
   /// read-outs. The budgets set the number of pixels of a frame.
   double screening_work = 4e10;
   double final_work = 4e10;
-  bool detection = true;  ///< measure P_d and P_fa
-  /// Rivals to read beside the read-outs, from the photons of the same pixels and frames.
+  double rival_work = 3e9;  ///< likewise, to compare rivals
+  bool detection = true;    ///< measure P_d and P_fa
+  /// Rivals to read beside the read-outs, from the photons of the same frames. At most as many pixels are
+  /// read as with the read-outs.
   std::span<const RivalEntry> rivals;
   /// Observes the steps of the work. Without an observer, progress is shown on standard error.
   std::function<void(std::string_view step, std::size_t done, std::size_t total)> observer;

@@ -20,16 +20,19 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Keeps every timestamp's count, at the memory of one word: better than any read-out of its size.
+/// Keeps every timestamp's count over six frames, at the memory of one word: better than any read-out.
 class Cheat final : public Rival {
  public:
   [[nodiscard]] int bits_per_pixel() const override { return 1; }
   [[nodiscard]] RivalHardware hardware() const override { return {.word_bits = 1}; }
   [[nodiscard]] int host_operations() const override { return 0; }
+  [[nodiscard]] int frames() const override { return 6; }
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
     RivalWords words(1024, 0);
-    for (const Detection& detection : frames.back()) {
-      ++words[detection.timestamp];
+    for (const std::span<const Detection> frame : frames) {
+      for (const Detection& detection : frame) {
+        ++words[detection.timestamp];
+      }
     }
     words[1023] = 0;
     return words;
@@ -146,7 +149,7 @@ TEST(Rivals, ScoresAreThoseOfTheReadoutsFrames) {
   EXPECT_DOUBLE_EQ(cheat.worst().klux, 20.0);
   EXPECT_LT(cheat.worst().above_3_percent.covering().high, pointer.worst().above_3_percent.covering().low);
   EXPECT_LT(cheat.lights[0].above_10_percent.value, 0.02) << "at 2 klux nearly every pulse is found";
-  EXPECT_GT(cheat.lights[0].detected->value, 0.5);
+  EXPECT_GT(cheat.lights[0].detected->value, 0.2);
   EXPECT_LT(cheat.lights[1].false_alarms->value, 0.02) << "the threshold lets 0.1 % of another sky pass";
   EXPECT_GT(constant.worst().above_3_percent.value, 0.5);
   EXPECT_DOUBLE_EQ(constant.worst().detected->value, 0.0) << "sky has the same confidence as targets";
@@ -158,7 +161,7 @@ TEST(Rivals, ABetterRivalIsNamedAndNotRecommended) {
   request.bench = small_bench();
   request.bench.klux = {20.0};
   request.frames = 2;
-  request.limits.most_mm2 = 0.09;
+  request.limits.most_mm2 = 0.12;
   request.rivals = kMadeUp;
   const DesignResult found = run_design(request);
   ASSERT_TRUE(found.recommendation.chosen);
@@ -178,7 +181,7 @@ TEST(Rivals, AQuickDesignReadsAFewPixelsAndNoRivals) {
   request.bench = small_bench();
   request.bench.klux = {20.0};
   request.frames = 2;
-  request.limits.most_mm2 = 0.09;
+  request.limits.most_mm2 = 0.12;
   request.rivals = kMadeUp;
   std::size_t observed = 0;
   request.observer = [&](std::string_view, std::size_t, std::size_t) { ++observed; };
