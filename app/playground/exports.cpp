@@ -22,6 +22,10 @@
 #include "playground/request.hpp"
 #include "playground/session.hpp"
 
+// A function in JavaScript: work that takes long reports its progress to worker.js.
+EM_JS(void, tell_worker, (const char* step, int done, int total),
+      { adviceProgress(UTF8ToString(step), done, total); });
+
 namespace {
 
 std::unique_ptr<dtof::PlaygroundSession> session;
@@ -37,10 +41,8 @@ std::string figures;
 std::string phases;
 std::string advice;
 
-/// The worker's function of this name hears of work that takes long. emscripten's macro is JavaScript.
 void tell_progress(std::string_view step, std::size_t done, std::size_t total) {
-  EM_ASM({ adviceProgress(UTF8ToString($0), $1, $2); }, std::string(step).c_str(), static_cast<int>(done),
-         static_cast<int>(total));
+  tell_worker(std::string(step).c_str(), static_cast<int>(done), static_cast<int>(total));
 }
 
 /// True if `work` succeeded; else `sentence` says why not.

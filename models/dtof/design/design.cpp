@@ -144,8 +144,11 @@ std::vector<LeftOut> left_out(std::span<const DesignCandidate> candidates, const
   std::vector<LeftOut> found;
   for (const Readout readout : kRtlReadouts) {
     std::vector<DesignCandidate> mine;
-    std::ranges::copy_if(candidates, std::back_inserter(mine),
-                         [&](const DesignCandidate& c) { return c.readout() == readout; });
+    for (const DesignCandidate& candidate : candidates) {
+      if (candidate.readout() == readout) {
+        mine.push_back(candidate);
+      }
+    }
     if (std::ranges::none_of(mine, [&](const DesignCandidate& c) { return limits_kept(c, limits).all(); })) {
       found.push_back({readout, reason_of(mine, limits)});
     }

@@ -46,8 +46,9 @@ std::string Table::markdown() const {
     }
   }
   constexpr std::size_t kWidest = 60;
-  std::ranges::replace_if(
-      width, [](std::size_t w) { return w > kWidest; }, 3);
+  for (std::size_t& w : width) {
+    w = w > kWidest ? 3 : w;
+  }
   std::string text;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     text += '|';
