@@ -149,7 +149,9 @@ TEST(DesignPage, MoreThanThreeBetterRivalsAreCounted) {
   for (const RivalEntry& entry : all_rivals().first(5)) {
     found.rivals.push_back(rival(entry.name, 0.01));
   }
-  EXPECT_THAT(design_more_accurate(found), HasSubstr("; and 2 more."));
+  const std::string text = design_more_accurate(found);
+  EXPECT_THAT(text, HasSubstr("; and 2 more."));
+  EXPECT_EQ(std::ranges::count(text, ';'), 3) << "three are named";
 }
 
 TEST(DesignPage, ThePageSaysHowAndWithWhatError) {

@@ -156,6 +156,27 @@ std::vector<LeftOut> left_out(std::span<const DesignCandidate> candidates, const
   return found;
 }
 
+/// For limits that no candidate keeps: if one misses the frame rate alone, what would make its frame fit.
+/// Else empty. The candidate is the fastest one.
+std::string what_would_fit(std::span<const DesignCandidate> candidates, const DesignRequest& request) {
+  const DesignCandidate* fastest = nullptr;
+  for (const DesignCandidate& candidate : candidates) {
+    LimitsKept kept = limits_kept(candidate, request.limits);
+    const bool misses = !kept.frame;
+    kept.frame = true;
+    if (misses && kept.all() && (fastest == nullptr || candidate.clocks < fastest->clocks)) {
+      fastest = &candidate;
+    }
+  }
+  if (fastest == nullptr) {
+    return "";
+  }
+  const ArrayChoice& array = fastest->array;
+  return "; " + frame_fit(array.parameters, array.rows, array.columns, request.bench.sensor.acquisitions,
+                          request.limits.budget)
+                    .sentence;
+}
+
 /// Reads the rivals. `effort`: of the read-outs' comparison.
 void add_rivals(const DesignRequest& request, BenchEffort effort, DesignResult& result) {
   RivalChoice choice = choose_rivals(request.rivals, request.bench.sensor, request.limits.most_mm2);
@@ -201,7 +222,8 @@ DesignResult run_design(const DesignRequest& request) {
   const std::vector<DesignCandidate> candidates = estimated(request);
   if (std::ranges::none_of(candidates,
                            [&](const DesignCandidate& c) { return limits_kept(c, request.limits).all(); })) {
-    throw InputError("design: " + what_would_be_needed(candidates, request.limits));
+    throw InputError("design: " + what_would_be_needed(candidates, request.limits) +
+                     what_would_fit(candidates, request));
   }
   DesignResult result;
   result.searched = candidates.size();
