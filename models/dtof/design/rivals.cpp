@@ -16,7 +16,7 @@
 #include "dtof/design/sram_macro.hpp"
 #include "dtof/frame/flat_calibration.hpp"
 #include "dtof/frame/frame_truth.hpp"
-#include "dtof/pipeline/frame_pipeline.hpp"
+#include "dtof/pipeline/region.hpp"
 #include "dtof/rival/rival_reader.hpp"
 
 namespace dtof {
@@ -150,7 +150,7 @@ class RivalBench {
         const std::uint32_t number = scene_frame(static_cast<std::uint32_t>(frame));
         const Measurements found = read(settings_.sensor, targets, klux, number, region_.columns);
         const FrameTruth truth = frame_truth(targets, settings_.sensor, region_.columns, region_.rows);
-        const std::vector<double> skews = skew_bins(settings_.sensor, targets.columns(), region_);
+        const std::vector<double> skews = skew_bins(targets.columns());
         for (std::size_t r = 0; r < rivals_.size(); ++r) {
           add(sums[r], found[r], converters[r], truth, skews, thresholds[r]);
         }
@@ -163,6 +163,19 @@ class RivalBench {
       options_[r].score.pixels = counts[r].pixels();
       options_[r].score.lights.push_back(counts[r].score(klux, effort_.detection));
     }
+  }
+
+  /// Timing skew in bins of the region's pixels, row-major, which the host knows; empty without any.
+  [[nodiscard]] std::vector<double> skew_bins(int columns) const {
+    std::vector<double> skews;
+    const SensorModel& sensor = settings_.sensor;
+    const TimingSkew& skew = sensor.surroundings.skew;
+    for (int row = 0; !skew.none() && row < sensor.rows; ++row) {
+      for (const int column : region_.columns) {
+        skews.push_back(skew.of_pixel(column, row, columns) / sensor.time_resolution_s());
+      }
+    }
+    return skews;
   }
 
   static void add(FrameCounts& counts, std::span<const Measurement> pixels, const RangeConverter& converter,

@@ -48,21 +48,6 @@ std::vector<RangeConverter> flat_tables(const SensorModel& sensor, double klux, 
   return calibration.fit(photons, readouts, seed, threads);
 }
 
-std::vector<double> skew_bins(const SensorModel& sensor, int columns, const Region& region) {
-  std::vector<double> skews;
-  const TimingSkew& skew = sensor.surroundings.skew;
-  if (skew.none()) {
-    return skews;
-  }
-  const RowRange rows = region.rows;
-  for (int row = rows.first; row < rows.first + rows.count; ++row) {
-    for (const int column : region.columns) {
-      skews.push_back(skew.of_pixel(column, row, columns) / sensor.time_resolution_s());
-    }
-  }
-  return skews;
-}
-
 FramePipeline::FramePipeline(PhotonSource scene, const FrameEngine& engine, Settings settings)
     : scene_(std::move(scene)),
       engine_(engine),
@@ -103,8 +88,21 @@ const StreamSource& FramePipeline::first_frame(const FrameEngine& engine, Readou
   return *streams_;
 }
 
-std::vector<double> FramePipeline::skews() const {
-  return skew_bins(scene_.model(), scene_.columns(), region());
+/// Timing skew of the region's pixels; empty without any.
+std::vector<double> FramePipeline::skew_bins() const {
+  std::vector<double> skews;
+  const SensorModel& sensor = scene_.model();
+  const TimingSkew& skew = sensor.surroundings.skew;
+  if (skew.none()) {
+    return skews;
+  }
+  const RowRange rows = region().rows;
+  for (int row = rows.first; row < rows.first + rows.count; ++row) {
+    for (const int column : region().columns) {
+      skews.push_back(skew.of_pixel(column, row, scene_.columns()) / sensor.time_resolution_s());
+    }
+  }
+  return skews;
 }
 
 ReadoutRun FramePipeline::read(const ReadoutParameters& readout, std::vector<int> columns) const {
@@ -121,7 +119,7 @@ ReadoutRun FramePipeline::read_by(const FrameEngine& engine, const ReadoutParame
 
 std::vector<double> FramePipeline::positions(std::span<const PixelResult> results,
                                              const ReadoutParameters& readout) const {
-  const std::vector<double> skews = this->skews();
+  const std::vector<double> skews = skew_bins();
   std::vector<double> positions;
   positions.reserve(results.size());
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -131,7 +129,7 @@ std::vector<double> FramePipeline::positions(std::span<const PixelResult> result
 }
 
 FrameMaps FramePipeline::judge(std::span<const PixelResult> results, const TabledReadout& readout) const {
-  return frame_maps(results, readout.parameters, scene_.model(), readout.table, truth_.metres, skews());
+  return frame_maps(results, readout.parameters, scene_.model(), readout.table, truth_.metres, skew_bins());
 }
 
 MeasuredFrame FramePipeline::measure_once(const StreamSource& source, const TabledReadout& readout) const {

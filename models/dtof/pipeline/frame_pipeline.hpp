@@ -40,10 +40,6 @@ std::vector<RangeConverter> flat_tables(const SensorModel& sensor, double klux, 
                                         std::span<const ReadoutParameters> readouts, std::uint64_t seed,
                                         int threads);
 
-/// Timing skew in bins of a region's pixels, row-major, which the host knows and subtracts; empty without
-/// any. `columns`: of the whole array.
-std::vector<double> skew_bins(const SensorModel& sensor, int columns, const Region& region);
-
 /// A read-out and its look-up table. Without a table, Eq. 3.11 gives the distances.
 struct TabledReadout {
   ReadoutParameters parameters;
@@ -120,7 +116,7 @@ class FramePipeline {
   [[nodiscard]] const StreamSource& first_frame(const FrameEngine& engine, Readout readout) const;
   [[nodiscard]] std::unique_ptr<StreamSource> photons_of(const PhotonSource& scene) const;
   [[nodiscard]] MeasuredFrame measure_once(const StreamSource& source, const TabledReadout& readout) const;
-  [[nodiscard]] std::vector<double> skews() const;
+  [[nodiscard]] std::vector<double> skew_bins() const;
 
   PhotonSource scene_;
   const FrameEngine& engine_;

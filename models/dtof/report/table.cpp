@@ -46,9 +46,8 @@ std::string Table::markdown() const {
     }
   }
   constexpr std::size_t kWidest = 60;
-  for (std::size_t& w : width) {
-    w = w > kWidest ? 3 : w;
-  }
+  std::ranges::replace_if(
+      width, [](std::size_t w) { return w > kWidest; }, 3);
   std::string text;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     text += '|';
