@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PARTS = ROOT / "app" / "playground" / "page"
 OUT = ROOT / "build" / "playground"
 MODULE = OUT / "cmake" / "bin" / "playground_module.js"
-SCRIPTS = ("page.js", "compare.js", "pixel.js", "files.js", "begin.js")  # of the page, in this order
+SCRIPTS = ("page.js", "compare.js", "pixel.js", "files.js", "advice.js", "begin.js")  # of the page, in this order
 THESIS_PIXELS = 32000
 
 

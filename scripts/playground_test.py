@@ -7,6 +7,7 @@ The commands compared with are those that the page shows. Screenshots are left i
 
 import base64
 import csv
+import re
 import shlex
 import subprocess
 import sys
@@ -277,6 +278,49 @@ class Playground(unittest.TestCase):
                          "9 m is beyond the sensor's range, 6.75 m (light there and back in 45 ns)"))
         self.set({"distance": 2})
         self.assertEqual(self.wait(), "done")
+
+    def advice(self) -> dict[str, list[str]]:
+        """Asks for advice; the cells of the table and the sentences on the page."""
+        self.browser.evaluate("delete document.body.dataset.advice; byId('ask').click()")
+        end = time.monotonic() + SECONDS
+        while self.browser.evaluate("document.body.dataset.advice ?? 'running'") == "running" and time.monotonic() < end:
+            time.sleep(0.2)
+        found = {"state": [self.browser.evaluate("document.body.dataset.advice")], "status": [self.browser.evaluate("byId('advice-status').textContent")]}
+        for name, selector in (("cells", "#advice-table th, #advice-table td"), ("says", "#advice-says p"), ("changes", "#advice-changes li")):
+            found[name] = self.browser.evaluate(f"[...document.querySelectorAll('{selector}')].map(e => e.textContent)")
+        return found
+
+    def test_advice_is_that_of_the_command(self) -> None:
+        self.browser.open(PAGE)
+        self.wait()
+        with tempfile.TemporaryDirectory() as folder:
+            sensor = Path(folder) / "mine.toml"
+            text = (ROOT / "models/dtof/sensor/presets/phone.toml").read_text(encoding="utf-8")
+            for name, value in (("columns", 36), ("rows", 16), ("acquisitions", 400)):
+                text = re.sub(f"(?m)^{name} = .*$", f"{name} = {value}", text)
+            sensor.write_text(text, encoding="utf-8")
+            self.set({"seed": 3}, ["ezpointer"])
+            self.drop(sensor)
+            self.assertEqual(self.wait(), "done", self.status())
+            for limit in ("0.6", "0.001"):
+                self.browser.evaluate(f"adviceForm['max-mm2'].value = '{limit}'")
+                found = self.advice()
+                words = shlex.split(self.browser.evaluate("adviceRequest().command"))
+                words[words.index("--sensor") + 1] = str(sensor)
+                run = subprocess.run([*words, "--out", folder + "/design"], cwd=ROOT, capture_output=True, text=True)
+                if run.returncode != 0:
+                    self.assertEqual(found["state"], ["failed"])
+                    self.assertIn(found["status"][0], run.stderr)
+                    continue
+                self.assertEqual(found["state"], ["done"], found["status"])
+                lines = run.stdout.splitlines()
+                table = [line for line in lines if line.startswith("|") and not line.startswith("|--")]
+                self.assertEqual(found["cells"], [cell.strip() for line in table for cell in line.strip("|").split("|")])
+                self.assertEqual(found["says"], [line for line in lines if line.startswith("Recommended: ")])
+                self.assertEqual(["* " + line for line in found["changes"]], [line for line in lines if line.startswith("* ")])
+                self.browser.screenshot(SCREENSHOTS / "advice.png")
+        self.assertEqual(limit, "0.001")
+        self.assertIn("would do: --max-mm2", found["status"][0])
 
     def test_a_run_that_is_under_way_is_given_up(self) -> None:
         self.browser.open(PAGE)

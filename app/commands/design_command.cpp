@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line/option_checks.hpp"
@@ -17,11 +18,13 @@
 #include "commands/json_result.hpp"
 #include "commands/optional_output.hpp"
 #include "design/design_page.hpp"
+#include "design/design_picture.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/design/design.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/report/plot.hpp"
+#include "dtof/rival/rival.hpp"
 #include "dtof/sensor/preset.hpp"
 
 namespace dtof {
@@ -38,6 +41,8 @@ struct DesignOptions {
   int frames = 4;
   std::uint64_t seed = 1;
   int threads = 0;
+  bool quick = false;
+  bool without_rivals = false;
   bool confirm = false;
   std::string out = "build/design";
   bool json = false;
@@ -58,7 +63,10 @@ DesignRequest request_of(const DesignOptions& options) {
   request.limits.most_mw = options.most_mw.value_or(request.limits.most_mw);
   request.limits.budget = {.clock_hz = options.clock_mhz * 1e6, .frames_per_s = options.frame_rate};
   request.frames = options.frames;
-  return request;
+  if (!options.without_rivals) {
+    request.rivals = all_rivals();
+  }
+  return options.quick ? quick_design(std::move(request)) : request;
 }
 
 void run_design_command(const DesignOptions& options, JsonResult& json) {
@@ -68,8 +76,10 @@ void run_design_command(const DesignOptions& options, JsonResult& json) {
   }
   const DesignResult result = run_design(request);
   const DesignOption& chosen = result.options[*result.recommendation.chosen];
-  fmt::print("{}\n{}\nWhat 10 % more or less would bring:\n{}", design_table(request, result),
-             design_recommendation(request, result), design_consequences(request, result));
+  const std::string rivals = design_rivals(result);
+  fmt::print("{}\n{}{}{}{}\nWhat 10 % more or less would bring:\n{}", design_rows(request, result).markdown(),
+             rivals, rivals.empty() ? "" : "\n", design_recommendation(request, result),
+             design_more_accurate(result), design_consequences(request, result));
   std::string confirmed;
   if (options.confirm) {
     SensorModel sensor = request.bench.sensor;
@@ -92,6 +102,9 @@ void run_design_command(const DesignOptions& options, JsonResult& json) {
   json["parameters"] = chosen.candidate.array.parameters.to_string();
   json["mm2"] = chosen.candidate.cost.mm2;
   json["product"] = design_product(request, result, options.sensor);
+  for (const RivalOption* rival : more_accurate_rivals(result)) {
+    json["more_accurate_rivals"].push_back(rival->entry->name);
+  }
   json.add_folder(folder);
   fmt::print("\nProduct: {}\nPage, picture and table are in {}\n",
              design_product(request, result, options.sensor), options.out);
@@ -121,6 +134,10 @@ void add_design_command(CLI::App& app, const std::string& command_line) {
   command->add_option("--frames", options->frames, "frames that compare the read-outs")
       ->check(within(2, 1000, "to 1000: an interval needs two"))
       ->capture_default_str();
+  command->add_flag("--quick", options->quick,
+                    "a twentieth of the pixels, wider intervals, no P_d and P_fa, no rivals");
+  command->add_flag("--no-rivals", options->without_rivals,
+                    "leaves out the read-outs of others, which have no RTL");
   add_study_options(*command, options->seed, options->threads, options->out);
   command->add_flag("--confirm", options->confirm,
                     "synthesises the recommended array by the project's flow, in its folder (minutes)");

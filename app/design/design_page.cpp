@@ -6,11 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <vector>
 
 #include "dtof/core/frame_time.hpp"
-#include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
 
 namespace dtof {
@@ -18,6 +16,7 @@ namespace {
 
 constexpr double kPerCent = 100.0;
 constexpr double kMegahertz = 1e-6;
+constexpr const char* kNotEstimated = "not estimated";
 
 std::string title_of(const DesignOption& option) {
   return std::string(readout_title(option.candidate.readout()));
@@ -94,7 +93,7 @@ std::string design_product(const DesignRequest& request, const DesignResult& res
                      product_note(chosen));
 }
 
-std::string design_table(const DesignRequest& request, const DesignResult& result) {
+Table design_rows(const DesignRequest& request, const DesignResult& result) {
   const double clock_hz = request.limits.budget.clock_hz;
   Table table({"read-out", "off by > 3 % in %", "> 10 % in %", "P_d in %", "P_fa in %", "mm2", "mW",
                "fmax MHz", "frames/s", "bits"});
@@ -109,7 +108,58 @@ std::string design_table(const DesignRequest& request, const DesignResult& resul
                fmt::format("{:.1f}", option.candidate.frames_per_s(clock_hz)),
                fmt::format("{:g}", option.candidate.cost.bits_per_pixel)});
   }
-  return table.markdown();
+  return table;
+}
+
+Table design_rival_rows(const DesignResult& result) {
+  Table table({"rival", "off by > 3 % in %", "> 10 % in %", "P_d in %", "P_fa in %", "memory mm2", "bits",
+               "frames of a result", "logic, clock, power"});
+  for (const RivalOption& rival : result.rivals) {
+    const LightScore& worst = rival.score.worst();
+    table.add({std::string(rival.entry->title), share_text(worst.above_3_percent),
+               optional_share(worst.above_10_percent, 2), optional_share(worst.detected, 1),
+               optional_share(worst.false_alarms, 2), fmt::format("{:.2f}", rival.memory_mm2),
+               fmt::format("{}", rival.bits_per_pixel), fmt::format("{}", rival.frames), kNotEstimated});
+  }
+  return table;
+}
+
+std::string design_rivals(const DesignResult& result) {
+  if (result.rivals.empty() && result.rivals_left_out.empty()) {
+    return "";
+  }
+  std::string text;
+  if (!result.rivals.empty()) {
+    text = fmt::format("{}\nLogic, clock and power of rivals are not estimated: {}.\n",
+                       design_rival_rows(result).markdown(), kRivalsWithoutRtl);
+  }
+  if (!result.rivals_left_out.empty()) {
+    text += fmt::format("{} rivals are left out.\n", result.rivals_left_out.size());
+  }
+  return text;
+}
+
+std::string design_more_accurate(const DesignResult& result) {
+  constexpr std::size_t kMostNamed = 3;
+  if (result.rivals.empty()) {
+    return "";
+  }
+  const std::vector<const RivalOption*> better = more_accurate_rivals(result);
+  if (better.empty()) {
+    return fmt::format("No rival of {} is more accurate.\n", result.rivals.size());
+  }
+  std::vector<std::string> names;
+  for (const RivalOption* rival : better) {
+    if (names.size() < kMostNamed) {
+      names.push_back(fmt::format("{}, {} %, {} bits a pixel, {:.2f} mm2 of memory alone{}",
+                                  rival->entry->title, share_text(rival->score.worst().above_3_percent),
+                                  rival->bits_per_pixel, rival->memory_mm2,
+                                  rival->frames > 1 ? fmt::format(", {} frames", rival->frames) : ""));
+    }
+  }
+  return fmt::format(
+      "More accurate, no RTL: {}{}.\n", fmt::join(names, "; "),
+      better.size() > kMostNamed ? fmt::format("; and {} more", better.size() - kMostNamed) : "");
 }
 
 std::string design_recommendation(const DesignRequest& request, const DesignResult& result) {
@@ -163,6 +213,18 @@ std::string design_consequences(const DesignRequest& request, const DesignResult
   return text;
 }
 
+std::vector<std::string> design_clocks(const DesignRequest& request, const DesignResult& result) {
+  const SensorModel& sensor = request.bench.sensor;
+  std::vector<std::string> sentences;
+  for (const std::size_t i : result.recommendation.within) {
+    const ReadoutParameters& parameters = result.options[i].candidate.array.parameters;
+    sentences.push_back(
+        frame_fit(parameters, sensor.rows, sensor.columns, sensor.acquisitions, request.limits.budget)
+            .sentence);
+  }
+  return sentences;
+}
+
 std::string design_page(const DesignRequest& request, const DesignResult& result,
                         const std::string& sensor_name, const std::string& command_line,
                         const std::string& confirmed) {
@@ -177,8 +239,8 @@ std::string design_page(const DesignRequest& request, const DesignResult& result
       "against "
       "area](design.svg)\n\n{}\n{}\n",
       sensor.name, sensor.columns, sensor.rows, sensor.np, sensor.acquisitions, sensor.slots,
-      limits_text(request.limits), design_recommendation(request, result), design_table(request, result),
-      errors_text());
+      limits_text(request.limits), design_recommendation(request, result) + design_more_accurate(result),
+      design_rows(request, result).markdown(), errors_text());
   text += fmt::format(
       "\nPixels that are off: in the light with most of them, intervals at 95 %. P_d: pixels that pass one "
       "threshold of "
@@ -186,19 +248,21 @@ std::string design_page(const DesignRequest& request, const DesignResult& result
       "most {:g} of "
       "the sky's pixels pass. mW: while acquisitions stream in, in the brightest light. fmax: slow corner.\n",
       request.bench.false_alarms);
+  if (const std::string rivals = design_rivals(result); !rivals.empty()) {
+    text += "\n## Rivals\n\n" + rivals;
+  }
   text += "\n## What 10 % more or less would bring\n\n" + design_consequences(request, result);
   text += "\n## Clocks of a frame\n\n";
-  for (const std::size_t i : result.recommendation.within) {
-    const ReadoutParameters& parameters = result.options[i].candidate.array.parameters;
-    text += "* " +
-            frame_fit(parameters, sensor.rows, sensor.columns, sensor.acquisitions, request.limits.budget)
-                .sentence +
-            "\n";
+  for (const std::string& sentence : design_clocks(request, result)) {
+    text += "* " + sentence + "\n";
   }
-  if (!result.left_out.empty()) {
+  if (!result.left_out.empty() || !result.rivals_left_out.empty()) {
     text += "\n## Left out\n\n";
     for (const LeftOut& one : result.left_out) {
       text += fmt::format("* {}: {}\n", readout_title(one.readout), one.reason);
+    }
+    for (const RivalLeftOut& one : result.rivals_left_out) {
+      text += fmt::format("* {} (rival): {}\n", one.entry->title, one.reason);
     }
   }
   if (!confirmed.empty()) {
@@ -220,64 +284,48 @@ std::string design_page(const DesignRequest& request, const DesignResult& result
   return text;
 }
 
-void write_design_picture(const std::filesystem::path& path, const DesignRequest& request,
-                          const DesignResult& result) {
-  std::map<Readout, std::vector<std::pair<double, double>>> points;
-  double least = 1.0;
-  double most = 0.0;
-  for (const DesignOption& option : result.options) {
-    constexpr double kLeastShown = 1e-4;  // of pixels: a logarithmic axis has no 0
-    const double share = std::max(option.best_known().worst().above_3_percent.value, kLeastShown);
-    points[option.candidate.readout()].emplace_back(option.candidate.cost.mm2, kPerCent * share);
-    least = std::min(least, share);
-    most = std::max(most, share);
-  }
-  std::vector<PlotSeries> series;
-  for (auto& [readout, of] : points) {
-    std::ranges::sort(of);
-    PlotSeries one{.label = std::string(readout_title(readout)), .x = {}, .y = {}};
-    for (const auto& [mm2, share] : of) {
-      one.x.push_back(mm2);
-      one.y.push_back(share);
-    }
-    series.push_back(std::move(one));
-  }
-  if (std::isfinite(request.limits.most_mm2)) {
-    series.push_back({.label = "limit of area",
-                      .x = {request.limits.most_mm2, request.limits.most_mm2},
-                      .y = {kPerCent * least, kPerCent * most}});
-  }
-  write_plot(
-      path, series,
-      {.title = fmt::format("{}: pixels off by more than 3 %, against area", request.bench.sensor.name),
-       .x_label = "area of the array in mm2",
-       .y_label = "pixels off by more than 3 %, in %",
-       .logarithmic_y = true,
-       .y_limits = {},
-       .logarithmic_x = true});
-}
-
 std::string design_csv(const DesignRequest& request, const DesignResult& result) {
   Table table({"readout", "parameters", "klux", "above_3_percent", "low", "high", "above_10_percent",
                "rmse_m", "detected", "false_alarms", "mm2", "mw", "fmax_mhz", "clocks", "bits_per_pixel",
-               "frames"});
+               "frames", "memory_mm2"});
+  const auto errors_of = [](const std::string& name, const std::string& parameters, const LightScore& light) {
+    const auto share = [](const std::optional<Estimate>& one) {
+      return one ? fmt::format("{:.6f}", one->value) : "";
+    };
+    const Estimate& above = light.above_3_percent;
+    return std::vector<std::string>{name,
+                                    parameters,
+                                    fmt::format("{:g}", light.klux),
+                                    fmt::format("{:.6f}", above.value),
+                                    fmt::format("{:.6f}", above.covering().low),
+                                    fmt::format("{:.6f}", above.covering().high),
+                                    fmt::format("{:.6f}", light.above_10_percent.value),
+                                    fmt::format("{:.4f}", light.rmse_m),
+                                    share(light.detected),
+                                    share(light.false_alarms)};
+  };
+  const auto add = [&](std::vector<std::string> cells, const std::vector<std::string>& others) {
+    cells.insert(cells.end(), others.begin(), others.end());
+    table.add(std::move(cells));
+  };
   for (const DesignOption& option : result.options) {
+    const DesignCandidate& candidate = option.candidate;
     for (const LightScore& light : option.best_known().lights) {
-      const Estimate& above = light.above_3_percent;
-      const auto share = [](const std::optional<Estimate>& one) {
-        return one ? fmt::format("{:.6f}", one->value) : "";
-      };
-      table.add(
-          {std::string(readout_name(option.candidate.readout())),
-           option.candidate.array.parameters.to_string(), fmt::format("{:g}", light.klux),
-           fmt::format("{:.6f}", above.value), fmt::format("{:.6f}", above.covering().low),
-           fmt::format("{:.6f}", above.covering().high), fmt::format("{:.6f}", light.above_10_percent.value),
-           fmt::format("{:.4f}", light.rmse_m), share(light.detected), share(light.false_alarms),
-           fmt::format("{:.4f}", option.candidate.cost.mm2),
-           fmt::format("{:.2f}", option.candidate.mw(request.limits.budget.clock_hz)),
-           fmt::format("{:.1f}", option.candidate.cost.fmax_mhz), fmt::format("{}", option.candidate.clocks),
-           fmt::format("{:g}", option.candidate.cost.bits_per_pixel),
-           fmt::format("{}", option.score ? result.frames : 1)});
+      add(errors_of(std::string(readout_name(candidate.readout())), candidate.array.parameters.to_string(),
+                    light),
+          {fmt::format("{:.4f}", candidate.cost.mm2),
+           fmt::format("{:.2f}", candidate.mw(request.limits.budget.clock_hz)),
+           fmt::format("{:.1f}", candidate.cost.fmax_mhz), fmt::format("{}", candidate.clocks),
+           fmt::format("{:g}", candidate.cost.bits_per_pixel),
+           fmt::format("{}", option.score ? result.frames : 1), ""});
+    }
+  }
+  for (const RivalOption& rival : result.rivals) {
+    for (const LightScore& light : rival.score.lights) {
+      add(errors_of(std::string(rival.entry->name), "rival", light),
+          {kNotEstimated, kNotEstimated, kNotEstimated, kNotEstimated,
+           fmt::format("{}", rival.bits_per_pixel), fmt::format("{}", result.frames),
+           fmt::format("{:.4f}", rival.memory_mm2)});
     }
   }
   return table.csv();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions that the page's worker calls (worker.js), and nothing of C++ that it would have to know: a
 // request is text, one "name value" a line; a failure is a sentence.
+#include <emscripten.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -9,13 +11,20 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "dtof/sensor/preset.hpp"
 #include "dtof/sensor/sensor_file.hpp"
+#include "playground/advice.hpp"
 #include "playground/catalogue.hpp"
 #include "playground/phases.hpp"
 #include "playground/request.hpp"
 #include "playground/session.hpp"
+
+// A function in JavaScript: work that takes long reports its progress to worker.js.
+EM_JS(void, tell_worker, (const char* step, int done, int total),
+      { adviceProgress(UTF8ToString(step), done, total); });
 
 namespace {
 
@@ -30,6 +39,11 @@ std::vector<dtof::PoolCandidate> candidates;
 std::string sentence;
 std::string figures;
 std::string phases;
+std::string advice;
+
+void tell_progress(std::string_view step, std::size_t done, std::size_t total) {
+  tell_worker(std::string(step).c_str(), static_cast<int>(done), static_cast<int>(total));
+}
 
 /// True if `work` succeeded; else `sentence` says why not.
 bool attempt(const std::function<void()>& work) {
@@ -64,6 +78,19 @@ bool playground_take_sensor(const char* name, const char* text) {
 }
 /// The catalogue's line of that sensor.
 const char* playground_sensor() { return sensor_line.c_str(); }
+/// Text of a preset's sensor file, to begin a file of one's own with.
+const char* playground_preset_text(const char* name) {
+  static std::string text;
+  text = "";
+  return attempt([&] { text = dtof::preset_text(name); }) ? text.c_str() : "";
+}
+/// Advice for that sensor, or for the request's preset (playground/advice.hpp). Reports progress by
+/// `tell_progress`.
+bool playground_advise(const char* request) {
+  return attempt(
+      [&] { advice = dtof::playground_advice(dtof::parse_advice_request(request), files, tell_progress); });
+}
+const char* playground_advice_text() { return advice.c_str(); }
 /// The depth map that scenes have from now on: its place, for metres row by row. Of 0 columns: none.
 float* playground_take_map(int columns, int rows) {
   files.map_columns = columns;

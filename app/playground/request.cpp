@@ -11,6 +11,7 @@
 #include <string>
 
 #include "dtof/core/error.hpp"
+#include "playground/advice.hpp"
 
 namespace dtof {
 namespace {
@@ -72,10 +73,30 @@ void set(PlaygroundRequest& request, const std::string& name, const std::string&
   }
 }
 
-}  // namespace
+void set(AdviceRequest& request, const std::string& name, const std::string& value) {
+  constexpr double kLeast = 1e-6;  // of a limit
+  constexpr double kMost = 1e9;
+  if (name == "sensor") {
+    request.sensor = value;
+  } else if (name == "max-mm2") {
+    request.most_mm2 = number(name, value, kLeast, kMost);
+  } else if (name == "max-mw") {
+    request.most_mw = number(name, value, kLeast, kMost);
+  } else if (name == "frame-rate") {
+    request.frames_per_s = number(name, value, kLeast, kMost);
+  } else if (name == "clock-mhz") {
+    request.clock_mhz = number(name, value, kLeast, kMost);
+  } else if (name == "seed") {
+    request.seed = whole(name, value, 0, std::numeric_limits<std::int64_t>::max());
+  } else {
+    throw InputError(fmt::format("'{}' is nothing that a request may say", name));
+  }
+}
 
-PlaygroundRequest parse_playground_request(std::string_view text) {
-  PlaygroundRequest request;
+/// Sets a request's fields from "name value" lines.
+template <typename Request>
+Request parse(std::string_view text) {
+  Request request;
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
@@ -87,5 +108,11 @@ PlaygroundRequest parse_playground_request(std::string_view text) {
   }
   return request;
 }
+
+}  // namespace
+
+PlaygroundRequest parse_playground_request(std::string_view text) { return parse<PlaygroundRequest>(text); }
+
+AdviceRequest parse_advice_request(std::string_view text) { return parse<AdviceRequest>(text); }
 
 }  // namespace dtof

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rivals/models/rival.hpp"
+#include "dtof/rival/rival.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,10 +19,10 @@
 #include "dtof/core/parallel.hpp"
 #include "dtof/frame/flat_calibration.hpp"
 #include "dtof/photon/photon_source.hpp"
-#include "rivals/models/coarse_histogram.hpp"
-#include "rivals/models/equi_depth.hpp"
-#include "rivals/models/guided_window.hpp"
-#include "rivals/models/linear_code.hpp"
+#include "dtof/rival/coarse_histogram.hpp"
+#include "dtof/rival/equi_depth.hpp"
+#include "dtof/rival/guided_window.hpp"
+#include "dtof/rival/linear_code.hpp"
 #include "src/arrays.hpp"
 #include "src/bindings.hpp"
 #include "src/photons.hpp"

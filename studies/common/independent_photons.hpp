@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dtof/photon/sensor_model.hpp"
-#include "rivals/models/rival.hpp"
+#include "dtof/rival/rival.hpp"
 
 namespace dtof {
 

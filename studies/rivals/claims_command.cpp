@@ -88,7 +88,7 @@ void run_claims_command(const ClaimsOptions& options) {
   const PaperClaims found = judge_paper_claims(options.settings);
   std::string report = fmt::format(
       "# What the rivals' papers claim\n\n"
-      "This page compares each rival's model ([the list](rivals.md), `studies/rivals/models`) with the "
+      "This page compares each rival's model ([the list](rivals.md), `models/dtof/rival`) with the "
       "claims of its paper. The photons are as in these papers: independent detections of a Gaussian pulse "
       "and of a flat background, without pile-up, at distances spread over the whole range; {} pixels, seed "
       "{}. Claims about strong light have photons with pile-up, which their rows state. The claims are those "

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "dtof/core/error.hpp"
-#include "rivals/models/coarse_histogram.hpp"
-#include "rivals/models/equi_depth.hpp"
-#include "rivals/models/guided_window.hpp"
-#include "rivals/models/linear_code.hpp"
-#include "rivals/models/online_em.hpp"
+#include "dtof/rival/coarse_histogram.hpp"
+#include "dtof/rival/equi_depth.hpp"
+#include "dtof/rival/guided_window.hpp"
+#include "dtof/rival/linear_code.hpp"
+#include "dtof/rival/online_em.hpp"
 #include "rivals/recent_claims.hpp"
 #include "rivals/scene_claims.hpp"
 

@@ -12,8 +12,8 @@
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/parallel.hpp"
-#include "rivals/models/coarse_histogram.hpp"
-#include "rivals/models/linear_code.hpp"
+#include "dtof/rival/coarse_histogram.hpp"
+#include "dtof/rival/linear_code.hpp"
 
 namespace dtof {
 namespace {

@@ -17,15 +17,15 @@
 
 #include "dtof/metrics/error_estimates.hpp"
 #include "dtof/metrics/error_statistics.hpp"
+#include "dtof/rival/bin_matcher.hpp"
+#include "dtof/rival/cfar_detector.hpp"
+#include "dtof/rival/equi_depth.hpp"
+#include "dtof/rival/equi_depth_fit.hpp"
+#include "dtof/rival/linear_code.hpp"
+#include "dtof/rival/linearised_average.hpp"
+#include "dtof/rival/optimised_code.hpp"
+#include "dtof/rival/pulse_shape.hpp"
 #include "rivals/flux_photons.hpp"
-#include "rivals/models/bin_matcher.hpp"
-#include "rivals/models/cfar_detector.hpp"
-#include "rivals/models/equi_depth.hpp"
-#include "rivals/models/equi_depth_fit.hpp"
-#include "rivals/models/linear_code.hpp"
-#include "rivals/models/linearised_average.hpp"
-#include "rivals/models/optimised_code.hpp"
-#include "rivals/models/pulse_shape.hpp"
 
 namespace dtof {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/report/table.hpp"
-#include "rivals/models/rival.hpp"
+#include "dtof/rival/rival.hpp"
 #include "scenes/scene_study.hpp"
 
 namespace dtof {

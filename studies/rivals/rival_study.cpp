@@ -9,8 +9,8 @@
 
 #include "dtof/core/parallel.hpp"
 #include "dtof/metrics/error_statistics.hpp"
-#include "dtof/photon/photon_source.hpp"
 #include "dtof/readout/pooled_matched_filter.hpp"
+#include "dtof/rival/rival_reader.hpp"
 
 namespace dtof {
 namespace {
@@ -97,48 +97,26 @@ RivalStudy::RivalStudy(SensorModel sensor, double klux, std::span<const RivalEnt
 }
 
 RivalStudy::Positions RivalStudy::read(const StudyScene& scene, std::uint32_t frame, bool pooled) const {
-  std::size_t frames = 1;
-  bool needs_laser_off = false;
-  for (const std::unique_ptr<Rival>& rival : rivals_) {
-    frames = std::max(frames, static_cast<std::size_t>(rival->frames()));
-    needs_laser_off = needs_laser_off || rival->laser_off_frames() > 0;
+  std::vector<std::uint32_t> frames;
+  for (std::size_t before = most_frames(rivals_); before-- > 0;) {
+    frames.push_back(earlier_frame(frame, before));
   }
-  const PhotonSource source(sensor_, scene.targets, klux_, seed_, frame);
-  SensorModel without_laser = sensor_;
-  without_laser.signal_events_1m = 0.0;
-  const PhotonSource background(without_laser, scene.targets, klux_, seed_, frame);
+  const RivalReader reader(sensor_, scene.targets, klux_, seed_, std::move(frames), rivals_);
   const auto width = static_cast<std::size_t>(scene.columns);
   const auto rows = static_cast<std::size_t>(scene.targets.rows());
   const std::size_t rows_of_rival = pooled ? 2 : 1;
   Positions positions(rows_of_rival * rivals_.size(), std::vector<Measurement>(width * rows));
   parallel_for(width, threads_, [&](std::size_t index) {
-    const int column = picked_column(scene, static_cast<int>(index));
-    std::vector<ColumnStream> streams;  // the oldest first
-    std::vector<ColumnStream> laser_off;
-    for (std::size_t before = frames; before-- > 1;) {
-      streams.push_back(source.at_frame(earlier_frame(frame, before)).column(column));
-      if (needs_laser_off) {
-        laser_off.push_back(background.at_frame(earlier_frame(frame, before)).column(column));
-      }
-    }
-    streams.push_back(source.column(column));
+    const std::vector<std::vector<RivalWords>> words =
+        reader.column(picked_column(scene, static_cast<int>(index)));
     for (std::size_t r = 0; r < rivals_.size(); ++r) {
-      const Rival& rival = *rivals_[r];
-      std::vector<RivalWords> words;
       std::vector<Measurement> alone;
       for (std::size_t row = 0; row < rows; ++row) {
-        std::vector<std::span<const Detection>> pixel;
-        const std::size_t first = frames - static_cast<std::size_t>(rival.frames());
-        const std::size_t first_lit = first + static_cast<std::size_t>(rival.laser_off_frames());
-        for (std::size_t f = first; f < frames; ++f) {
-          pixel.push_back((f < first_lit ? laser_off : streams)[f].row(static_cast<int>(row)));
-        }
-        words.push_back(rival.read_pixel(pixel));
-        alone.push_back(rival.decode(words.back()));
+        alone.push_back(rivals_[r]->decode(words[r][row]));
         positions[r * rows_of_rival][row * width + index] = alone.back();
       }
       if (pooled) {
-        const std::vector<Measurement> helped = pool_pixels(rival, words, alone);
+        const std::vector<Measurement> helped = pool_pixels(*rivals_[r], words[r], alone);
         for (std::size_t row = 0; row < rows; ++row) {
           positions[r * rows_of_rival + 1][row * width + index] = helped[row];
         }

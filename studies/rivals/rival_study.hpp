@@ -11,12 +11,12 @@
 #include "dtof/host/range_converter.hpp"
 #include "dtof/metrics/depth.hpp"
 #include "dtof/photon/sensor_model.hpp"
-#include "rivals/models/rival.hpp"
+#include "dtof/rival/rival.hpp"
 #include "scenes/scene_study.hpp"
 
 namespace dtof {
 
-/// Reads out scenes with rivals (studies/rivals/models/rival.hpp). The photons of a scene equal those of
+/// Reads out scenes with rivals (models/dtof/rival/rival.hpp). The photons of a scene equal those of
 /// SceneStudy and PoolStudy with the same sensor, light and seed; a rival that needs several frames gets
 /// others before them, without signal events where the rival wants the laser off. Each rival has its own
 /// look-up table by FlatCalibration, unless the rule is TableRule::kNone.

@@ -22,8 +22,8 @@
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/report/table.hpp"
+#include "dtof/rival/rival.hpp"
 #include "dtof/sensor/preset.hpp"
-#include "rivals/models/rival.hpp"
 #include "rivals/rival_report.hpp"
 #include "rivals/rival_study.hpp"
 

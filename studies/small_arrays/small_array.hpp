@@ -12,7 +12,7 @@
 #include "dtof/host/range_converter.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/photon/target_map.hpp"
-#include "rivals/models/rival.hpp"
+#include "dtof/rival/rival.hpp"
 #include "small_arrays/models/enlarger.hpp"
 
 namespace dtof {
@@ -21,7 +21,7 @@ namespace dtof {
 /// their number; its background is unchanged.
 SensorModel sharing_the_laser(const SensorModel& sensor, const SpotGrid& grid);
 
-/// Throws InputError unless `name` is a read-out, or a rival (studies/rivals/models/rival.hpp) with one frame
+/// Throws InputError unless `name` is a read-out, or a rival (models/dtof/rival/rival.hpp) with one frame
 /// per result.
 void check_small_readout(const std::string& name, const SensorModel& sensor);
 

@@ -8,7 +8,7 @@ side by side.
 
 Logic is what ezPointer's smallest column takes without the bits of its word, and for each bit of a rival's word a flip-flop
 behind the read, one before the write, a full adder and a multiplexer. Further full adders (comparisons, products, quotients)
-and tables are what the rival's model says (RivalHardware in studies/rivals/models/rival.hpp). Nothing is counted for control,
+and tables are what the rival's model says (RivalHardware in models/dtof/rival/rival.hpp). Nothing is counted for control,
 for pipeline stages of long sums and for saturation, nor for sending more bits per pixel: the estimate favours the rivals.
 """
 
@@ -31,7 +31,7 @@ FREEZING = ("hispointer", "sifh", "fifh", "threesteps", "histogram", "coarsehist
 
 @dataclass(frozen=True)
 class Hardware:
-    """Hardware of a pixel's memory and of its column (RivalHardware in studies/rivals/models/rival.hpp)."""
+    """Hardware of a pixel's memory and of its column (RivalHardware in models/dtof/rival/rival.hpp)."""
 
     words: int
     word_bits: int

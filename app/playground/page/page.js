@@ -163,15 +163,21 @@ function fail(sentence) {
   document.body.dataset.state = "failed";
 }
 
-function startWorker() {
+/** A worker with the models. `failed` takes a sentence. */
+function makeWorker(heard, failed) {
   const text = byId("worker-text").textContent;
   const url = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
-  worker = new Worker(url);
-  worker.onmessage = (event) => hear[event.data.what](event.data);
-  worker.onerror = (event) => {
+  const made = new Worker(url);
+  made.onmessage = (event) => heard(event.data);
+  made.onerror = (event) => {
     console.error(event.message);
-    fail(`The models stopped: ${event.message}`);
+    failed(`The models stopped: ${event.message}`);
   };
+  return made;
+}
+
+function startWorker() {
+  worker = makeWorker((message) => hear[message.what](message), fail);
 }
 
 function restartWorker(ready) {

@@ -4,6 +4,11 @@
 
 const PROGRESS_MS = 100;
 
+/** The module calls this function while it computes advice. */
+function adviceProgress(step, done, of) {
+  postMessage({ what: "advice-progress", step, done, of });
+}
+
 createModels().then((models) => {
   const call = (name, result, types = [], values = []) => models.ccall(`playground_${name}`, result, types, values);
   const attempt = (name, types = [], values = []) => {
@@ -84,9 +89,20 @@ createModels().then((models) => {
     postMessage({ what: "state", number, until, position: code + fraction / unit, confidence, rival: second / unit, candidates });
   }
 
+  /** The read-out that the C++ of `dtof design` recommends. */
+  function advise({ sensor, text }) {
+    take(sensor, null, null);
+    attempt("advise", ["string"], [text]);
+    postMessage({ what: "advice", text: call("advice_text", "string") });
+  }
+
   onmessage = (event) => {
     try {
-      if (event.data.what === "pixel") {
+      if (event.data.what === "advise") {
+        advise(event.data);
+      } else if (event.data.what === "preset") {
+        postMessage({ what: "preset", text: call("preset_text", "string", ["string"], [event.data.name]) });
+      } else if (event.data.what === "pixel") {
         pixel(event.data);
       } else if (event.data.what === "state") {
         state(event.data);

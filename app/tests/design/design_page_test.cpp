@@ -53,7 +53,7 @@ std::vector<DesignOption> two_options() {
 }
 
 TEST(DesignPage, TheTableHasAReadoutALineBestFirst) {
-  const std::string text = design_table(request(), result(request(), two_options()));
+  const std::string text = design_rows(request(), result(request(), two_options())).markdown();
   EXPECT_THAT(text, HasSubstr("1.00 [0.50, 1.50]"));
   EXPECT_THAT(text, HasSubstr("87.5"));
   EXPECT_THAT(text, HasSubstr("0.05"));
@@ -102,10 +102,56 @@ TEST(DesignPage, SeveralArraysAreSaidEverywhere) {
   wide.candidate.array.arrays = 2;
   const DesignRequest made = request();
   const DesignResult found = result(made, {wide});
-  EXPECT_THAT(design_table(made, found), HasSubstr("SiFH, 2 arrays of 160 columns"));
+  EXPECT_THAT(design_rows(made, found).markdown(), HasSubstr("SiFH, 2 arrays of 160 columns"));
   EXPECT_EQ(design_product(made, found, "mine.toml"),
             "dtof product --sensor mine.toml --readout sifh --out chip  # with columns = 160 in the sensor "
             "file, 2 times");
+}
+
+RivalOption rival(std::string_view name, double share) {
+  RivalOption made{
+      .entry = &find_rival(name), .bits_per_pixel = 256, .frames = 3, .memory_mm2 = 2.345, .score = {}};
+  made.score = option(Readout::kSifh, share, 1.0).screened;
+  return made;
+}
+
+TEST(DesignPage, ARivalHasNoAreaOfLogicAndTheReason) {
+  const DesignRequest made = request();
+  DesignResult found = result(made, two_options());
+  EXPECT_EQ(design_rivals(found), "");
+  EXPECT_EQ(design_more_accurate(found), "");
+  found.rivals = {rival("histogram32", 0.002), rival("signs", 0.60)};
+  found.rivals_left_out = {{&find_rival("fourier16"), "its memory alone takes 5.00 mm2"}};
+  const std::string text = design_rivals(found);
+  EXPECT_THAT(text, HasSubstr("32-bin histogram"));
+  EXPECT_THAT(text, HasSubstr("2.35"));  // mm2 of memory
+  EXPECT_THAT(text, HasSubstr("Logic, clock and power of rivals are not estimated: a rival has no RTL"));
+  EXPECT_THAT(text, HasSubstr("1 rivals are left out"));
+  EXPECT_EQ(design_more_accurate(found),
+            "More accurate, no RTL: 32-bin histogram, 0.20 [-0.30, 0.70] %, 256 bits a pixel, 2.35 mm2 of "
+            "memory alone, 3 frames.\n");
+  const std::string page = design_page(made, found, "mine.toml", "dtof design", "");
+  for (const char* part : {"## Rivals", "More accurate, no RTL", "not estimated",
+                           "* truncated Fourier K = 16 (rival): its memory alone takes 5.00 mm2"}) {
+    EXPECT_THAT(page, HasSubstr(part));
+  }
+  const std::string csv = design_csv(made, found);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
+  EXPECT_THAT(csv, HasSubstr("histogram32,rival,50,0.002000"));
+  EXPECT_THAT(csv, HasSubstr("not estimated,not estimated,not estimated,not estimated,256,4,2.3450"));
+  found.rivals = {rival("signs", 0.60)};
+  EXPECT_EQ(design_more_accurate(found), "No rival of 1 is more accurate.\n");
+}
+
+TEST(DesignPage, MoreThanThreeBetterRivalsAreCounted) {
+  const DesignRequest made = request();
+  DesignResult found = result(made, {option(Readout::kEzPointer, 0.50, 1.0)});
+  for (const RivalEntry& entry : all_rivals().first(5)) {
+    found.rivals.push_back(rival(entry.name, 0.01));
+  }
+  const std::string text = design_more_accurate(found);
+  EXPECT_THAT(text, HasSubstr("; and 2 more."));
+  EXPECT_EQ(std::ranges::count(text, ';'), 3) << "three are named";
 }
 
 TEST(DesignPage, ThePageSaysHowAndWithWhatError) {

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "dtof/core/error.hpp"
+#include "dtof/design/bench_counts.hpp"
 #include "dtof/design/candidates.hpp"
 #include "dtof/frame/frame_truth.hpp"
 #include "dtof/metrics/confidence_counts.hpp"
@@ -19,22 +19,7 @@
 namespace dtof {
 namespace {
 
-// Frames of the sky: those that set thresholds, and those that are held out.
-constexpr std::uint32_t kSkyFrame = 1'000'000;
-constexpr std::uint32_t kHeldOutSky = 2'000'000;
-constexpr double kSkyPixelsPassing = 10.0;  // at least, in the mean, at the threshold
-constexpr double kRight = 0.10;
-
 double range_s(const SensorModel& sensor) { return sensor.integration_time_s - sensor.pulse_fwhm_s; }
-
-/// Counts of one read-out in one light.
-struct Counts {
-  std::vector<double> above_3;  // share of each frame's pixels
-  std::vector<double> above_10;
-  std::vector<double> detected;
-  double squares = 0.0;
-  std::uint64_t pixels = 0;  // of all frames
-};
 
 struct Sky {
   ConfidenceCounts set_by;
@@ -45,34 +30,18 @@ bool has_confidence(const ReadoutParameters& parameters) {
   return !is_pointer_readout(parameters.readout) || parameters.confidence_width > 0;
 }
 
-/// Shares of one scene's pixels in one frame.
-struct SceneCounts {
-  std::uint64_t pixels = 0;
-  std::uint64_t above_3 = 0;
-  std::uint64_t above_10 = 0;
-  std::uint64_t detected = 0;
-  double squares = 0.0;
-
-  void add(const MeasuredFrame& frame, const FrameTruth& truth, std::optional<int> threshold) {
-    const FrameFigures& figures = frame.maps.figures;
-    if (figures.errors.count() == 0) {
-      return;
-    }
-    const ErrorSummary errors = figures.errors.summary();
-    const auto count = static_cast<double>(errors.count);
-    pixels += errors.count;
-    above_3 += static_cast<std::uint64_t>(std::llround(errors.share_above_3_percent * count));
-    above_10 += static_cast<std::uint64_t>(std::llround(errors.share_above_10_percent * count));
-    squares += frame.maps.mean_square * count;
-    for (std::size_t i = 0; threshold && i < truth.metres.size(); ++i) {
-      // Comparisons with an unknown error or distance are false.
-      detected += frame.run.results[i].confidence >= *threshold &&
-                          std::abs(frame.maps.error[i]) <= kRight * truth.metres[i]
-                      ? 1
-                      : 0;
-    }
+/// Adds a frame of one scene.
+void add(FrameCounts& counts, const MeasuredFrame& frame, const FrameTruth& truth,
+         std::optional<int> threshold) {
+  counts.add(frame.maps.figures.errors, frame.maps.mean_square);
+  for (std::size_t i = 0; threshold && i < truth.metres.size(); ++i) {
+    // Comparisons with an unknown error or distance are false.
+    counts.detected += frame.run.results[i].confidence >= *threshold &&
+                               std::abs(frame.maps.error[i]) <= kRight * truth.metres[i]
+                           ? 1
+                           : 0;
   }
-};
+}
 
 /// Read-outs that take as many slots see the same photons.
 class SlotsBench {
@@ -122,16 +91,12 @@ class SlotsBench {
     check_interruption();
   }
 
-  /// So many frames that the share of false alarms shows.
-  [[nodiscard]] std::uint32_t sky_frames() const {
-    const double pixels = static_cast<double>(region_.columns.size()) * sensor_.rows;
-    return static_cast<std::uint32_t>(std::ceil(kSkyPixelsPassing / settings_.false_alarms / pixels));
-  }
-
   void look_at_sky(double klux, std::uint32_t first_frame, std::vector<Sky>& skies,
                    ConfidenceCounts Sky::*counts) {
     const TargetMap sky(sensor_.columns, sensor_.rows, {0.0, sensor_.default_reflectivity});
-    for (std::uint32_t frame = 0; frame < sky_frames(); ++frame) {
+    const std::uint32_t frames =
+        sky_frames(settings_, region_.columns.size() * static_cast<std::size_t>(sensor_.rows));
+    for (std::uint32_t frame = 0; frame < frames; ++frame) {
       const FramePipeline pipeline(PhotonSource(sensor_, sky, klux, settings_.seed, first_frame + frame),
                                    engine_,
                                    {.region = region_, .seed = settings_.seed, .threads = settings_.threads});
@@ -146,59 +111,34 @@ class SlotsBench {
   }
 
   void add_light(double klux, const std::vector<Sky>& skies, std::vector<ReadoutScore>& scores) {
-    std::vector<Counts> counts(readouts_.size());
+    std::vector<LightCounts> counts(readouts_.size());
     const std::vector<RangeConverter> tables =
         flat_tables(sensor_, klux, Fidelity::kExact, readouts_, settings_.seed, settings_.threads);
     for (int frame = 0; frame < effort_.frames; ++frame) {
-      std::vector<SceneCounts> sums(readouts_.size());
+      std::vector<FrameCounts> sums(readouts_.size());
       for (const TargetMap& targets : targets_) {
         const FramePipeline pipeline(
             PhotonSource(sensor_, targets, klux, settings_.seed,
                          scene_frame(static_cast<std::uint32_t>(frame))),
             engine_, {.region = region_, .seed = settings_.seed, .threads = settings_.threads});
         for (std::size_t r = 0; r < readouts_.size(); ++r) {
-          sums[r].add(pipeline.measure({readouts_[r], tables[r]}), pipeline.truth(), scores[r].threshold);
+          add(sums[r], pipeline.measure({readouts_[r], tables[r]}), pipeline.truth(), scores[r].threshold);
           advance();
         }
       }
       for (std::size_t r = 0; r < readouts_.size(); ++r) {
-        if (sums[r].pixels == 0) {
-          throw InputError("design: no pixel of the scenes can be judged");
-        }
-        const auto pixels = static_cast<double>(sums[r].pixels);
-        counts[r].above_3.push_back(static_cast<double>(sums[r].above_3) / pixels);
-        counts[r].above_10.push_back(static_cast<double>(sums[r].above_10) / pixels);
-        counts[r].detected.push_back(static_cast<double>(sums[r].detected) / pixels);
-        counts[r].squares += sums[r].squares;
-        counts[r].pixels += sums[r].pixels;
+        counts[r].add(sums[r]);
       }
     }
     for (std::size_t r = 0; r < readouts_.size(); ++r) {
-      scores[r].pixels = counts[r].pixels / static_cast<std::uint64_t>(effort_.frames);
-      scores[r].lights.push_back(score_of(klux, counts[r], skies[r], scores[r]));
+      scores[r].pixels = counts[r].pixels();
+      LightScore light = counts[r].score(klux, scores[r].threshold.has_value());
+      if (scores[r].threshold) {
+        light.false_alarms = estimate_rare_share(count_from(skies[r].held_out, *scores[r].threshold),
+                                                 count_from(skies[r].held_out, 0));
+      }
+      scores[r].lights.push_back(light);
     }
-  }
-
-  [[nodiscard]] LightScore score_of(double klux, const Counts& counts, const Sky& sky,
-                                    const ReadoutScore& score) const {
-    const auto share = [&](const std::vector<double>& frames) {
-      return frames.size() > 1 ? estimate_share_of_frames(frames, score.pixels)
-                               : estimate_share(static_cast<std::uint64_t>(std::llround(
-                                                    frames.front() * static_cast<double>(score.pixels))),
-                                                score.pixels);
-    };
-    LightScore light{.klux = klux,
-                     .above_3_percent = share(counts.above_3),
-                     .above_10_percent = share(counts.above_10),
-                     .rmse_m = std::sqrt(counts.squares / static_cast<double>(counts.pixels)),
-                     .detected = std::nullopt,
-                     .false_alarms = std::nullopt};
-    if (score.threshold) {
-      light.detected = share(counts.detected);
-      light.false_alarms =
-          estimate_rare_share(count_from(sky.held_out, *score.threshold), count_from(sky.held_out, 0));
-    }
-    return light;
   }
 
   const BenchSettings& settings_;

@@ -8,9 +8,11 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/frame_time.hpp"
@@ -104,16 +106,26 @@ std::vector<ReadoutParameters> parameters_of(const std::vector<DesignOption>& op
   return parameters;
 }
 
+std::unique_ptr<Progress> make_progress(const DesignRequest& request, const std::string& title,
+                                        std::size_t total) {
+  if (!request.observer) {
+    return std::make_unique<Progress>(title, total);
+  }
+  return std::make_unique<Progress>(
+      total, [&request, title](std::size_t done, std::size_t of) { request.observer(title, done, of); });
+}
+
 /// Scores of the options at these places.
 std::vector<ReadoutScore> read(const DesignRequest& request, const std::vector<DesignOption>& options,
                                const std::vector<std::size_t>& places, const BenchEffort& effort,
                                const std::string& title) {
   const BenchSettings& bench = request.bench;
   const std::size_t lights = bench.klux.size();
-  Progress progress(title, places.size() * lights *
-                               (bench.scenes.size() * static_cast<std::size_t>(effort.frames) +
-                                (effort.detection ? 2 : 0)));
-  return run_bench(bench, parameters_of(options, places), effort, &progress);
+  const auto progress = make_progress(
+      request, title,
+      places.size() * lights *
+          (bench.scenes.size() * static_cast<std::size_t>(effort.frames) + (effort.detection ? 2 : 0)));
+  return run_bench(bench, parameters_of(options, places), effort, progress.get());
 }
 
 /// Why one read-out is left out.
@@ -132,8 +144,11 @@ std::vector<LeftOut> left_out(std::span<const DesignCandidate> candidates, const
   std::vector<LeftOut> found;
   for (const Readout readout : kRtlReadouts) {
     std::vector<DesignCandidate> mine;
-    std::ranges::copy_if(candidates, std::back_inserter(mine),
-                         [&](const DesignCandidate& c) { return c.readout() == readout; });
+    for (const DesignCandidate& candidate : candidates) {
+      if (candidate.readout() == readout) {
+        mine.push_back(candidate);
+      }
+    }
     if (std::ranges::none_of(mine, [&](const DesignCandidate& c) { return limits_kept(c, limits).all(); })) {
       found.push_back({readout, reason_of(mine, limits)});
     }
@@ -141,7 +156,64 @@ std::vector<LeftOut> left_out(std::span<const DesignCandidate> candidates, const
   return found;
 }
 
+/// For limits that no candidate keeps: if one misses the frame rate alone, what would make its frame fit.
+/// Else empty. The candidate is the fastest one.
+std::string what_would_fit(std::span<const DesignCandidate> candidates, const DesignRequest& request) {
+  const DesignCandidate* fastest = nullptr;
+  for (const DesignCandidate& candidate : candidates) {
+    LimitsKept kept = limits_kept(candidate, request.limits);
+    const bool misses = !kept.frame;
+    kept.frame = true;
+    if (misses && kept.all() && (fastest == nullptr || candidate.clocks < fastest->clocks)) {
+      fastest = &candidate;
+    }
+  }
+  if (fastest == nullptr) {
+    return "";
+  }
+  const ArrayChoice& array = fastest->array;
+  return "; " + frame_fit(array.parameters, array.rows, array.columns, request.bench.sensor.acquisitions,
+                          request.limits.budget)
+                    .sentence;
+}
+
+/// Reads the rivals. `effort`: of the read-outs' comparison.
+void add_rivals(const DesignRequest& request, BenchEffort effort, DesignResult& result) {
+  RivalChoice choice = choose_rivals(request.rivals, request.bench.sensor, request.limits.most_mm2);
+  result.rivals_left_out = std::move(choice.left_out);
+  result.rivals = std::move(choice.options);
+  if (!result.rivals.empty()) {
+    effort.pixels =
+        std::min(effort.pixels, pixels_of(request.rival_work, result.rivals.size(), request, effort.frames));
+    const auto progress = make_progress(request, "rivals", rival_steps(request.bench, effort));
+    read_rivals(request.bench, result.rivals, effort, progress.get());
+  }
+  std::ranges::stable_sort(
+      result.rivals, {}, [](const RivalOption& rival) { return rival.score.worst().above_3_percent.value; });
+}
+
 }  // namespace
+
+DesignRequest quick_design(DesignRequest request) {
+  constexpr double kShare = 0.05;
+  request.screening_work *= kShare;
+  request.final_work *= kShare;
+  request.detection = false;
+  request.rivals = {};
+  return request;
+}
+
+std::vector<const RivalOption*> more_accurate_rivals(const DesignResult& result) {
+  std::vector<const RivalOption*> found;
+  const LightScore& chosen = result.options[*result.recommendation.chosen].best_known().worst();
+  for (const RivalOption& rival : result.rivals) {
+    const LightScore& worst = rival.score.worst();
+    if (worst.above_3_percent.value < chosen.above_3_percent.value && !as_good(chosen, worst)) {
+      found.push_back(&rival);
+    }
+  }
+  return found;
+}
 
 DesignResult run_design(const DesignRequest& request) {
   if (request.frames < 2 || request.bench.klux.empty() || request.bench.scenes.empty()) {
@@ -150,7 +222,8 @@ DesignResult run_design(const DesignRequest& request) {
   const std::vector<DesignCandidate> candidates = estimated(request);
   if (std::ranges::none_of(candidates,
                            [&](const DesignCandidate& c) { return limits_kept(c, request.limits).all(); })) {
-    throw InputError("design: " + what_would_be_needed(candidates, request.limits));
+    throw InputError("design: " + what_would_be_needed(candidates, request.limits) +
+                     what_would_fit(candidates, request));
   }
   DesignResult result;
   result.searched = candidates.size();
@@ -183,15 +256,14 @@ DesignResult run_design(const DesignRequest& request) {
     }
   }
   const std::vector<std::size_t> best(chosen.begin(), chosen.end());
-  std::vector<ReadoutScore> scores =
-      read(request, result.options, best,
-           {.pixels = pixels_of(request.final_work, best.size(), request, result.frames),
-            .frames = result.frames,
-            .detection = true},
-           "read-outs");
+  const BenchEffort effort{.pixels = pixels_of(request.final_work, best.size(), request, result.frames),
+                           .frames = result.frames,
+                           .detection = request.detection};
+  std::vector<ReadoutScore> scores = read(request, result.options, best, effort, "read-outs");
   for (std::size_t i = 0; i < best.size(); ++i) {
     result.options[best[i]].score = std::move(scores[i]);
   }
+  add_rivals(request, effort, result);
   result.recommendation = recommend(result.options, request.limits);
   result.left_out = left_out(candidates, request.limits);
   for (const LimitChange& change : changes) {

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dtof/design/bench.hpp"
 #include "dtof/design/candidates.hpp"
 #include "dtof/design/recommendation.hpp"
+#include "dtof/design/rivals.hpp"
 
 namespace dtof {
 
@@ -19,7 +24,18 @@ struct DesignRequest {
   /// read-outs. The budgets set the number of pixels of a frame.
   double screening_work = 4e10;
   double final_work = 4e10;
+  double rival_work = 3e9;  ///< likewise, to compare rivals
+  bool detection = true;    ///< measure P_d and P_fa
+  /// Rivals to read beside the read-outs, from the photons of the same frames. At most as many pixels are
+  /// read as with the read-outs.
+  std::span<const RivalEntry> rivals;
+  /// Observes the steps of the work. Without an observer, progress is shown on standard error.
+  std::function<void(std::string_view step, std::size_t done, std::size_t total)> observer;
 };
+
+/// The request with a twentieth of the pixels, and without P_d, P_fa and rivals (`--quick`, and the
+/// playground's page).
+DesignRequest quick_design(DesignRequest request);
 
 /// A read-out none of whose parameters meet the limits, and why.
 struct LeftOut {
@@ -31,6 +47,8 @@ struct DesignResult {
   std::vector<DesignOption> options;  ///< all options that were read out
   Recommendation recommendation;
   std::vector<LeftOut> left_out;
+  std::vector<RivalOption> rivals;  ///< best first
+  std::vector<RivalLeftOut> rivals_left_out;
   struct Consequence {
     LimitChange change;
     Recommendation recommendation;
@@ -40,6 +58,10 @@ struct DesignResult {
   int frames = 0;                         ///< frames that compared the read-outs
   std::size_t searched = 0;               ///< parameter sets whose cost was estimated
 };
+
+/// Returns the rivals that have fewer errors in their worst light than the recommended read-out, as far as
+/// the intervals can tell. Best first. A rival has no RTL, so it is never recommended.
+std::vector<const RivalOption*> more_accurate_rivals(const DesignResult& result);
 
 /// Estimates the cost of every candidate. Reads out those that meet the limits, also after one limit is
 /// loosened by 10 %; of candidates that differ in SLOTS alone, only the one with most. Compares the best

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 
 #include "dtof/core/error.hpp"
 #include "dtof/sensor/default_parameters.hpp"
@@ -12,7 +13,9 @@
 namespace dtof {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::ThrowsMessage;
 
 DesignRequest small_request() {
@@ -128,6 +131,25 @@ TEST(Design, LimitsThatNobodyKeepsAreOneLine) {
   request.limits.most_mm2 = 1e-3;
   EXPECT_THAT([&] { run_design(request); },
               ThrowsMessage<InputError>(HasSubstr("one of these would do: --max-mm2")));
+}
+
+TEST(Design, AFrameThatDoesNotFitHasItsWaysOut) {
+  for (const auto& [columns, rows, np] : {std::array{64, 48, 12}, std::array{1024, 1024, 10}}) {
+    DesignRequest request = small_request();
+    request.bench.sensor.columns = columns;
+    request.bench.sensor.rows = rows;
+    request.bench.sensor.np = np;
+    request.bench.sensor.acquisitions = 3333;
+    request.limits.budget.frames_per_s = 8000.0;
+    EXPECT_THAT([&] { run_design(request); },
+                ThrowsMessage<InputError>(AllOf(HasSubstr("one of these would do: --frame-rate "),
+                                                HasSubstr("a frame of 3333 acquisitions takes "),
+                                                HasSubstr("What would, one of: "), HasSubstr(" acquisitions"),
+                                                HasSubstr(" MHz"))));
+    request.limits.most_mm2 = 1e-3;  // no frame rate alone would do
+    EXPECT_THAT([&] { run_design(request); },
+                ThrowsMessage<InputError>(Not(HasSubstr("What would, one of: "))));
+  }
 }
 
 TEST(Design, FewerSlotsAreTakenOnlyWhereMoreDoNotFit) {
