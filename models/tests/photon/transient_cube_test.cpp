@@ -133,8 +133,8 @@ TEST_F(TransientCubeTest, AMeasuredPulseWidensItsBins) {
 TEST_F(TransientCubeTest, SurroundingsOfTheSensorRemain) {
   around_.cover_glass = {.events = 0.08, .distance_m = 0.05};
   around_.settling.silent_share = 0.5;
-  EXPECT_GT(poisson_chi_square_p(counts(bin_at(2.0, 0.1)),
-                                 means(kBackground, {{0.05, bins(2.0)}, {0.04, bins(0.05)}})),
+  EXPECT_GT(poisson_chi_square_p(counts(bin_at(1.4, 0.1)),
+                                 means(kBackground, {{0.05, bins(1.4)}, {0.04, bins(0.05)}})),
             kErrorRate);
   around_.settling.silent_share = 0.0;
   around_.skew = {.column_s = 2e-9, .pattern = SkewPattern::kAlternating};
