@@ -4,11 +4,12 @@
 
 `rivals.py DTOF_STUDY --out FOLDER OPTION ...`: runs `DTOF_STUDY rivals OPTION ...` with the bits of the project's read-outs
 as synthesis reports them (reports/area.csv), then the sensors of SENSORS on fewer scenes in folders of their own, and writes
-the report and its pictures to FOLDER.
+the report and its pictures to FOLDER. A run that ended well with the same program and the same options is not made again.
 `rivals.py --report FOLDER`: writes report and pictures again from the tables in FOLDER.
 """
 
 import csv
+import hashlib
 import math
 import subprocess
 import sys
@@ -34,6 +35,7 @@ COLUMNS, ROWS = 200, 160  # of the areas
 READOUT_OPERATIONS = 1  # of the host: the look-up table alone, which no estimator goes without
 BUDGETS = (1.0, 1.5, 5.0, math.inf)  # mm2
 INDOORS, SUN = "2", "50"  # klux
+RUN_MARK = "run.sha256"  # in the folder of a run that ended well
 
 
 @dataclass(frozen=True)
@@ -283,11 +285,21 @@ def report(folder: Path) -> None:
                                       encoding="utf-8")
 
 
-def run(study: str, options: list[str]) -> None:
+def run(study: str, folder: Path, options: list[str]) -> None:
+    """Runs the study with its files in `folder`, unless they are those of the same program and options."""
     bits = [f"{name}={value}" for name, value in known_bits(AREA).items()]
-    result = subprocess.run([study, "rivals", *options, *(["--bits", *bits] if bits else [])], check=False)
+    command = [study, "rivals", "--out", str(folder), *options, *(["--bits", *bits] if bits else [])]
+    files = [Path(option).read_bytes() for option in options if Path(option).is_file()]
+    digest = hashlib.sha256(b"\0".join([Path(study).read_bytes(), *files, *map(str.encode, command)])).hexdigest()
+    mark = folder / RUN_MARK
+    if mark.is_file() and mark.read_text(encoding="utf-8") == digest:
+        print(f"{folder}: from an earlier run of the same program")
+        return
+    mark.unlink(missing_ok=True)
+    result = subprocess.run(command, check=False)
     if result.returncode != 0:
         raise SystemExit(result.returncode)
+    mark.write_text(digest, encoding="utf-8")
 
 
 def main() -> None:
@@ -297,10 +309,10 @@ def main() -> None:
     if len(sys.argv) < 4 or sys.argv[2] != "--out":
         raise SystemExit(f"usage: {__doc__}")
     study, folder = sys.argv[1], Path(sys.argv[3])
-    run(study, sys.argv[2:])
+    run(study, folder, sys.argv[4:])
     for sensor in SENSORS:
-        run(study, ["--sensor", argument_of(sensor), "--distance-scale", f"{sensor.distance_scale:g}",
-                    *SENSOR_OPTIONS, "--out", str(folder / folder_of(sensor))])
+        run(study, folder / folder_of(sensor), ["--sensor", argument_of(sensor), "--distance-scale", f"{sensor.distance_scale:g}",
+                                                *SENSOR_OPTIONS])
     report(folder)
     print(f"{folder / 'report.md'} written")
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The picture of read-outs and rivals shows what the table says."""
 
+import contextlib
+import io
 import tempfile
 import unittest
 from pathlib import Path
@@ -79,6 +81,28 @@ class Picture(unittest.TestCase):
         for sensor in rivals.SENSORS:
             argument = rivals.argument_of(sensor)
             self.assertTrue(argument in presets or Path(argument).is_file(), argument)
+
+    def test_a_run_that_ended_is_not_made_again_unless_something_changes(self) -> None:
+        folder = Path(self.folder.name)
+        study, made = folder / "study", folder / "made"
+        scene, out = folder / "map.png", folder / "out"
+        scene.write_text("1", encoding="utf-8")
+
+        def runs(text: str, *options: str) -> int:
+            study.write_text(f"#!/bin/sh\n{text}\nmkdir -p {out}\necho x >> {made}\n", encoding="utf-8")
+            study.chmod(0o755)
+            before = made.read_text().count("x") if made.is_file() else 0
+            rivals.run(str(study), out, ["--disparity", str(scene), *options])
+            return made.read_text().count("x") - before
+
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual([runs("true"), runs("true")], [1, 0])
+            self.assertEqual([runs("true", "--seeds", "2"), runs(": other", "--seeds", "2")], [1, 1])
+            scene.write_text("2", encoding="utf-8")
+            self.assertEqual(runs(": other", "--seeds", "2"), 1)
+            with self.assertRaises(SystemExit):
+                runs("exit 3")
+            self.assertEqual([runs("true"), runs("true")], [1, 0])
 
     def test_the_report_has_the_sections_before_the_lights(self) -> None:
         folder = self.path.parent
