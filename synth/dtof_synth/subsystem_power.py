@@ -12,7 +12,6 @@ import json
 import random
 import re
 import subprocess
-import threading
 from dataclasses import dataclass
 from pathlib import Path
 

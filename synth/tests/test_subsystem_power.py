@@ -10,6 +10,7 @@ from unittest import mock
 from dtof_synth import array_stand_in, configuration, endpoints, library, netlist, standard_cells, subsystem, subsystem_power
 from dtof_synth.activity import OTHER, STREAMING
 from dtof_synth.array_stand_in import MODES, Port, Ports
+from dtof_synth.configuration import Configuration
 from dtof_synth.errors import FlowError
 from dtof_synth.run import EFFORTS, Technology
 
@@ -49,8 +50,10 @@ class Wrapper(unittest.TestCase):
 class Small(unittest.TestCase):
     kept: tempfile.TemporaryDirectory[str]
     technology: Technology
+    configuration: Configuration
     design: dict
     ports: Ports
+    others: list[tuple[str, bool]]
 
     @classmethod
     def setUpClass(cls) -> None:
