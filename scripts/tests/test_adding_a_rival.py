@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PAGE = ROOT / "docs" / "user" / "adding_a_rival.md"
-LIST = ROOT / "studies" / "rivals" / "models" / "rival_list.cpp"
+LIST = ROOT / "models" / "dtof" / "rival" / "rival_list.cpp"
 DECLARED_HERE = "// A rival whose file has no header is declared here.\n"
 LIST_BEGINS = "std::to_array<RivalEntry>({\n"
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror")
@@ -27,7 +27,7 @@ class Page(unittest.TestCase):
             for name, content in (("first_photon.cpp", rival), ("rival_list.cpp", text)):
                 file = Path(folder) / name
                 file.write_text(content, encoding="utf-8")
-                compiler = [os.environ.get("CXX", "c++"), "-std=c++20", "-fsyntax-only", *WARNINGS, f"-I{ROOT / 'models'}", f"-I{ROOT / 'studies'}"]
+                compiler = [os.environ.get("CXX", "c++"), "-std=c++20", "-fsyntax-only", *WARNINGS, f"-I{ROOT / 'models'}"]
                 result = subprocess.run([*compiler, str(file)], capture_output=True, text=True, check=False)
                 self.assertEqual(result.returncode, 0, result.stderr)
 
