@@ -66,7 +66,7 @@ class ArrayTest(unittest.TestCase):
         np.testing.assert_allclose(scene.depth_m, wanted, rtol=1e-12)
         frame = dtof.frame(scene, readouts=["histogram"])
         self.assertTrue(np.isnan(frame.truth_m[1, 2]))
-        for broken, sentence in [(events[0], "rows, columns and time bins"), (-events, "column 1, row 0, bin 100: -0.0199"),
+        for broken, sentence in [(events[0], "rows, columns and time bins"), (-events, "column 0, row 0, bin 200: -0.0333"),
                                  (np.full((1, 1, 2), np.nan), "nan is not a finite number")]:
             with self.subTest(sentence), self.assertRaisesRegex(ValueError, sentence):
                 dtof.Scene.from_cube(broken, 100e-12)
