@@ -289,10 +289,11 @@ def run(study: str, folder: Path, options: list[str]) -> None:
     """Runs the study with its files in `folder`, unless they are those of the same program and options."""
     bits = [f"{name}={value}" for name, value in known_bits(AREA).items()]
     command = [study, "rivals", "--out", str(folder), *options, *(["--bits", *bits] if bits else [])]
-    files = [Path(option).read_bytes() for option in options if Path(option).is_file()]
+    named = [option.rpartition("=")[2] for option in options]  # FILE, or NAME=FILE
+    files = [Path(name).read_bytes() for name in named if Path(name).is_file()]
     digest = hashlib.sha256(b"\0".join([Path(study).read_bytes(), *files, *map(str.encode, command)])).hexdigest()
     mark = folder / RUN_MARK
-    if mark.is_file() and mark.read_text(encoding="utf-8") == digest:
+    if mark.is_file() and mark.read_text(encoding="utf-8") == digest and (folder / "rivals.csv").is_file():
         print(f"{folder}: from an earlier run of the same program")
         return
     mark.unlink(missing_ok=True)

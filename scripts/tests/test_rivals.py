@@ -89,10 +89,10 @@ class Picture(unittest.TestCase):
         scene.write_text("1", encoding="utf-8")
 
         def runs(text: str, *options: str) -> int:
-            study.write_text(f"#!/bin/sh\n{text}\nmkdir -p {out}\necho x >> {made}\n", encoding="utf-8")
+            study.write_text(f"#!/bin/sh\n{text}\nmkdir -p {out}\ntouch {out}/rivals.csv\necho x >> {made}\n", encoding="utf-8")
             study.chmod(0o755)
             before = made.read_text().count("x") if made.is_file() else 0
-            rivals.run(str(study), out, ["--disparity", str(scene), *options])
+            rivals.run(str(study), out, ["--photographed", f"Art={scene}", *options])
             return made.read_text().count("x") - before
 
         with contextlib.redirect_stdout(io.StringIO()):
@@ -102,6 +102,8 @@ class Picture(unittest.TestCase):
             self.assertEqual(runs(": other", "--seeds", "2"), 1)
             with self.assertRaises(SystemExit):
                 runs("exit 3")
+            self.assertEqual([runs("true"), runs("true")], [1, 0])
+            (out / "rivals.csv").unlink()
             self.assertEqual([runs("true"), runs("true")], [1, 0])
 
     def test_the_report_has_the_sections_before_the_lights(self) -> None:
