@@ -22,7 +22,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-StudySettings small_study() {
+StudySettings small_accuracy_study() {
   StudySettings settings;
   settings.sensor = parse_preset("thesis");
   settings.distances_m = {1.0, 1.5, 2.0};
@@ -45,7 +45,7 @@ void expect_same(const AccuracyStudy& a, const AccuracyStudy& b) {
 
 TEST(AccuracyStudy, ThreadsDoNotChangeIt) {
   SCOPED_TRACE(test_seed_message());
-  StudySettings settings = small_study();
+  StudySettings settings = small_accuracy_study();
   settings.run.threads = 1;
   const AccuracyStudy one = run_accuracy_study(settings);
   settings.run.threads = 3;
@@ -54,7 +54,7 @@ TEST(AccuracyStudy, ThreadsDoNotChangeIt) {
 
 TEST(AccuracyStudy, AReadoutSeesTheSamePhotonsAloneOrWithOthers) {
   SCOPED_TRACE(test_seed_message());
-  StudySettings settings = small_study();
+  StudySettings settings = small_accuracy_study();
   const AccuracyStudy together = run_accuracy_study(settings);
   settings.readouts = {ReadoutParameters::defaults(Readout::kHisPointer)};
   settings.matched_filter = false;
@@ -65,7 +65,7 @@ TEST(AccuracyStudy, AReadoutSeesTheSamePhotonsAloneOrWithOthers) {
 }
 
 TEST(AccuracyStudy, CalibrationAndEvaluationShareNoFrame) {
-  StudySettings settings = small_study();
+  StudySettings settings = small_accuracy_study();
   settings.precision = 1e-9;
   settings.most_frames = 240;
   std::mutex mutex;
@@ -83,7 +83,7 @@ TEST(AccuracyStudy, CalibrationAndEvaluationShareNoFrame) {
 
 TEST(AccuracyStudy, MatchedFilterIsNearTheBound) {
   SCOPED_TRACE(test_seed_message());
-  StudySettings settings = small_study();
+  StudySettings settings = small_accuracy_study();
   settings.frames = 800;
   settings.calibration_frames = 200;
   const AccuracyStudy study = run_accuracy_study(settings);
@@ -96,7 +96,7 @@ TEST(AccuracyStudy, MatchedFilterIsNearTheBound) {
 
 TEST(AccuracyStudy, PrecisionStopsWhenReached) {
   SCOPED_TRACE(test_seed_message());
-  StudySettings settings = small_study();
+  StudySettings settings = small_accuracy_study();
   settings.precision = 0.06;
   settings.most_frames = 5000;
   const AccuracyStudy study = run_accuracy_study(settings);
@@ -135,7 +135,7 @@ TEST(PrecisionReached, WantsManyOutliersOrSurelyRareOnes) {
 
 TEST(AccuracyStudy, TheTableDependsOnTheCalibrationSeedOnly) {
   SCOPED_TRACE(test_seed_message());
-  StudySettings settings = small_study();
+  StudySettings settings = small_accuracy_study();
   settings.frames = 8;
   std::mutex mutex;
   std::set<std::pair<std::uint64_t, double>> calibrations;  // seed, distance
@@ -162,7 +162,7 @@ TEST(AccuracyStudy, TheTableDependsOnTheCalibrationSeedOnly) {
 
 TEST(AccuracyStudy, PooledPixelsAreIndependent) {
   SCOPED_TRACE(test_seed_message());
-  StudySettings settings = small_study();
+  StudySettings settings = small_accuracy_study();
   settings.distances_m = {3.0};
   settings.klux = 50.0;
   settings.frames = 8;
@@ -183,7 +183,7 @@ TEST(AccuracyStudy, PooledPixelsAreIndependent) {
 
 TEST(AccuracyStudy, RejectionRemovesOutliers) {
   SCOPED_TRACE(test_seed_message());
-  StudySettings settings = small_study();
+  StudySettings settings = small_accuracy_study();
   settings.distances_m = {2.0, 5.0};
   settings.readouts = {ReadoutParameters::defaults(Readout::kFifh)};
   settings.matched_filter = false;
@@ -197,7 +197,7 @@ TEST(AccuracyStudy, RejectionRemovesOutliers) {
 
 TEST(AccuracyStudy, Refusals) {
   const auto changed = [](auto change) {
-    StudySettings settings = small_study();
+    StudySettings settings = small_accuracy_study();
     change(settings);
     return [settings] { (void)run_accuracy_study(settings); };
   };
@@ -211,7 +211,7 @@ TEST(AccuracyStudy, Refusals) {
 
 TEST(AccuracyStudy, AnEngineOfColumnsIsOnePixelsAlone) {
   SCOPED_TRACE(test_seed_message());
-  StudySettings settings = small_study();
+  StudySettings settings = small_accuracy_study();
   settings.sensor.acquisitions = 500;
   settings.distances_m = {2.0};
   settings.frames = 8;

@@ -36,7 +36,7 @@ DesignRequest small_request() {
   return request;
 }
 
-JudgementSettings small_settings() {
+JudgementSettings small_design_judgement_study() {
   JudgementSettings settings;
   settings.sensors = 1;
   settings.sweep_pixels = 500.0;
@@ -66,7 +66,7 @@ DesignResult result_of(std::vector<DesignOption> options, std::size_t chosen) {
 }
 
 TEST(DesignJudgement, FindsAPlantedBadRecommendation) {
-  JudgementSettings settings = small_settings();
+  JudgementSettings settings = small_design_judgement_study();
   settings.design = [&](const DesignRequest& request) {
     const std::vector<DesignCandidate> grid = full_grid(request);
     const auto found =
@@ -85,7 +85,7 @@ TEST(DesignJudgement, FindsAPlantedBadRecommendation) {
 }
 
 TEST(DesignJudgement, ARecommendationBeyondALimitIsBad) {
-  JudgementSettings settings = small_settings();
+  JudgementSettings settings = small_design_judgement_study();
   DesignRequest request = small_request();
   std::vector<double> areas;
   for (const DesignCandidate& candidate : full_grid(request)) {
@@ -108,7 +108,7 @@ TEST(DesignJudgement, ARecommendationBeyondALimitIsBad) {
 }
 
 TEST(DesignJudgement, SaysWhereTheSearchLostTheBest) {
-  JudgementSettings settings = small_settings();
+  JudgementSettings settings = small_design_judgement_study();
   settings.final_seeds = 2;
   settings.finalists = 1000;  // all candidates, so that the best does not depend on the recommendation
   const auto judged_with = [&](const std::function<DesignResult(const DesignRequest&)>& design) {
@@ -155,7 +155,7 @@ TEST(DesignJudgement, SaysWhereTheSearchLostTheBest) {
 }
 
 TEST(DesignJudgement, DoesNotDependOnTheThreads) {
-  JudgementSettings settings = small_settings();
+  JudgementSettings settings = small_design_judgement_study();
   const ReadoutParameters poor = full_grid(small_request()).front().array.parameters;
   settings.design = [&](const DesignRequest&) { return result_of({option_of(poor, 0.1)}, 0); };
   settings.threads = 1;
@@ -216,7 +216,7 @@ TEST(DesignJudgement, AStoredJudgementIsEqual) {
 }
 
 TEST(DesignJudgement, AnInterruptedRunGoesOnWithTheNextSensor) {
-  JudgementSettings settings = small_settings();
+  JudgementSettings settings = small_design_judgement_study();
   settings.ranges = {.most_columns = 18, .most_rows = 14, .most_acquisitions = 300};
   settings.store = std::filesystem::path(testing::TempDir()) / "judged";
   std::filesystem::remove_all(settings.store);
@@ -247,7 +247,8 @@ TEST(DesignJudgement, TheReportBeginsWithTheAnswerAndGivesReasons) {
     judged.push_back({.sensor = {}, .judgement = judgement});
     judged.back().sensor.request = small_request();
   }
-  const std::string report = judgement_report(small_settings(), judged, "dtof-study design-judgement");
+  const std::string report =
+      judgement_report(small_design_judgement_study(), judged, "dtof-study design-judgement");
   EXPECT_THAT(report, HasSubstr("**For 1 of 3 random sensors"));
   EXPECT_THAT(
       report,
@@ -266,7 +267,7 @@ TEST(DesignJudgement, TheReportBeginsWithTheAnswerAndGivesReasons) {
 
 TEST(DesignJudgement, RefusesWhatMakesNoJudgement) {
   const auto refused = [](auto change, const char* reason) {
-    JudgementSettings settings = small_settings();
+    JudgementSettings settings = small_design_judgement_study();
     change(settings);
     EXPECT_THAT([&] { (void)judge_designs(settings); }, ThrowsMessage<InputError>(HasSubstr(reason)));
   };

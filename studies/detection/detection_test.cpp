@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-DetectionSettings small_settings() {
+DetectionSettings small_detection_study() {
   DetectionSettings settings;
   settings.sensor = find_sensor("thesis");
   settings.sensor.rows = 24;
@@ -30,7 +30,7 @@ DetectionSettings small_settings() {
 }
 
 TEST(Detection, PoolPointerTellsAWallFromASkyWithOneThreshold) {
-  const std::vector<ReadoutDetection> study = run_detection(small_settings());
+  const std::vector<ReadoutDetection> study = run_detection(small_detection_study());
   ASSERT_EQ(study.size(), 2U);
   for (const ReadoutDetection& readout : study) {
     ASSERT_EQ(readout.cells.size(), 4U);
@@ -48,7 +48,7 @@ TEST(Detection, PoolPointerTellsAWallFromASkyWithOneThreshold) {
 }
 
 TEST(Detection, ReportAndPictureHaveEveryCell) {
-  const DetectionSettings settings = small_settings();
+  const DetectionSettings settings = small_detection_study();
   const std::vector<ReadoutDetection> study = {
       {.readout = Readout::kPoolPointer,
        .threshold = 40,
@@ -75,13 +75,13 @@ TEST(Detection, ReportAndPictureHaveEveryCell) {
 }
 
 TEST(Detection, RefusesSettingsOutOfRange) {
-  DetectionSettings settings = small_settings();
+  DetectionSettings settings = small_detection_study();
   settings.seeds = 1;
   EXPECT_THAT([&] { run_detection(settings); }, ThrowsMessage<InputError>(HasSubstr("at least 2 seeds")));
-  settings = small_settings();
+  settings = small_detection_study();
   settings.false_alarms = std::nan("");
   EXPECT_THAT([&] { run_detection(settings); }, ThrowsMessage<InputError>(HasSubstr("false alarms")));
-  settings = small_settings();
+  settings = small_detection_study();
   settings.sensor.columns = 20;
   EXPECT_THAT([&] { run_detection(settings); }, ThrowsMessage<InputError>(HasSubstr("20")));
 }

@@ -39,7 +39,7 @@ HostileCounts counts(std::uint64_t within_10, std::uint64_t beyond) {
   return made;
 }
 
-std::vector<HostileCounts> seeds(std::uint64_t within_10, std::uint64_t beyond = 0) {
+std::vector<HostileCounts> hostile_seeds(std::uint64_t within_10, std::uint64_t beyond = 0) {
   return {counts(within_10, beyond), counts(within_10, beyond)};
 }
 
@@ -62,13 +62,13 @@ TEST(HostileFigures, AreSharesOfTheirPixels) {
 
 TEST(HostileFigures, ThresholdIsTheLowestThatKeepsEveryLightsSkyQuiet) {
   // 200 sky pixels: a tenth of them at each confidence.
-  EXPECT_EQ(least_confidence({seeds(0)}, 0.1), 9);
-  EXPECT_EQ(least_confidence({seeds(0)}, 0.0999), 10);
-  EXPECT_EQ(least_confidence({seeds(0)}, 0.35), 7);
-  std::vector<HostileCounts> brighter = seeds(0);
+  EXPECT_EQ(least_confidence({hostile_seeds(0)}, 0.1), 9);
+  EXPECT_EQ(least_confidence({hostile_seeds(0)}, 0.0999), 10);
+  EXPECT_EQ(least_confidence({hostile_seeds(0)}, 0.35), 7);
+  std::vector<HostileCounts> brighter = hostile_seeds(0);
   brighter[1].by_confidence[static_cast<std::size_t>(Outcome::kSky)][30] = 60;
-  EXPECT_EQ(least_confidence({brighter, seeds(0)}, 0.1), 31) << "the worst light decides";
-  EXPECT_EQ(least_confidence({seeds(0), brighter}, 0.1), 31);
+  EXPECT_EQ(least_confidence({brighter, hostile_seeds(0)}, 0.1), 31) << "the worst light decides";
+  EXPECT_EQ(least_confidence({hostile_seeds(0), brighter}, 0.1), 31);
 }
 
 class HostileReport : public testing::Test {
@@ -82,13 +82,13 @@ class HostileReport : public testing::Test {
     for (const std::string& condition : settings_.conditions) {
       HostileReadouts& readouts = study_.cells[{condition, 14.0}];
       for (const std::string& name : hostile_estimators(settings_)) {
-        readouts[name] = seeds(20);
+        readouts[name] = hostile_seeds(20);
         study_.thresholds[name] = 5;
       }
     }
     for (const char* condition : {"fog", "late-laser"}) {
       for (const std::string& name : told_estimators(settings_)) {
-        study_.told[{condition, 14.0}][name] = seeds(20);
+        study_.told[{condition, 14.0}][name] = hostile_seeds(20);
       }
     }
   }
@@ -96,8 +96,8 @@ class HostileReport : public testing::Test {
   void add_motion() {
     settings_.conditions.emplace_back("motion");
     for (const std::string& name : hostile_estimators(settings_)) {
-      study_.cells[{"motion", 14.0}][name] = seeds(30);
-      study_.told[{"motion", 14.0}][name] = seeds(20);
+      study_.cells[{"motion", 14.0}][name] = hostile_seeds(30);
+      study_.told[{"motion", 14.0}][name] = hostile_seeds(20);
       study_.instants[{"motion", 14.0}].instants[name] = {0.75, std::nullopt};
     }
     study_.instants[{"motion", 14.0}].distances_m = {1.0, 3.0};
@@ -109,8 +109,8 @@ class HostileReport : public testing::Test {
 
 TEST_F(HostileReport, NamesTheConditionsThatAPoolReadoutDoesNotSurvive) {
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", false), IsEmpty());
-  study_.cells[{"late-laser", 14.0}]["poolpointer"] = seeds(0, 400);
-  study_.cells[{"fog", 14.0}]["poolpointer"] = seeds(40);  // twice, within the intervals
+  study_.cells[{"late-laser", 14.0}]["poolpointer"] = hostile_seeds(0, 400);
+  study_.cells[{"fog", 14.0}]["poolpointer"] = hostile_seeds(40);  // twice, within the intervals
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", false),
               ElementsAre("late-laser (14 klux)"));
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true), IsEmpty()) << "it is told";
@@ -125,15 +125,15 @@ TEST_F(HostileReport, NamesTheConditionsThatAPoolReadoutDoesNotSurvive) {
 }
 
 TEST_F(HostileReport, NamesWhatFoolsEveryReadout) {
-  study_.cells[{"fog", 14.0}]["poolpointer"] = seeds(0, 300);
+  study_.cells[{"fog", 14.0}]["poolpointer"] = hostile_seeds(0, 300);
   EXPECT_THAT(fooled_together(settings_, study_), IsEmpty()) << "the coarse histogram is not";
-  study_.cells[{"fog", 14.0}]["coarsehistogram"] = seeds(0, 250);
+  study_.cells[{"fog", 14.0}]["coarsehistogram"] = hostile_seeds(0, 250);
   EXPECT_THAT(fooled_together(settings_, study_), ElementsAre("fog (25 % at 14 klux)"))
       << "filters do not count";
 }
 
 TEST_F(HostileReport, TablesHoldEveryFigure) {
-  study_.cells[{"fog", 14.0}]["poolpointer"] = seeds(100, 150);
+  study_.cells[{"fog", 14.0}]["poolpointer"] = hostile_seeds(100, 150);
   const std::string csv = hostile_csv(settings_, study_).csv();
   EXPECT_THAT(csv, HasSubstr("\npoolpointer,fog,14,2000,0.25,"));
   EXPECT_THAT(csv, HasSubstr(",5,0.75,"));
@@ -146,12 +146,12 @@ TEST_F(HostileReport, TablesHoldEveryFigure) {
 }
 
 TEST_F(HostileReport, NamesWhatRemainsOfThoseThatAreTold) {
-  study_.cells[{"clear", 14.0}]["poolpointer"] = seeds(0, 400);  // of this nothing can be told
-  study_.cells[{"fog", 14.0}]["poolpointer"] = seeds(0, 400);
-  study_.told[{"late-laser", 14.0}]["poolpointer"] = seeds(0, 70);
+  study_.cells[{"clear", 14.0}]["poolpointer"] = hostile_seeds(0, 400);  // of this nothing can be told
+  study_.cells[{"fog", 14.0}]["poolpointer"] = hostile_seeds(0, 400);
+  study_.told[{"late-laser", 14.0}]["poolpointer"] = hostile_seeds(0, 70);
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true),
               ElementsAre("clear (14 klux)", "late-laser (14 klux)"));
-  study_.told[{"late-laser", 14.0}]["coarsehistogram"] = seeds(0, 60);
+  study_.told[{"late-laser", 14.0}]["coarsehistogram"] = hostile_seeds(0, 60);
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true), ElementsAre("clear (14 klux)"))
       << "the coarse histogram has its settings, too";
   EXPECT_THAT(hostile_report(settings_, study_, ""),
@@ -164,7 +164,7 @@ TEST_F(HostileReport, SaysWhatBecomesOfThoseThatAreTold) {
   EXPECT_THAT(told_conditions(settings_), ElementsAre("fog", "late-laser"));
   EXPECT_THAT(told_estimators(settings_),
               ElementsAre("coarsehistogram", "poolpointer", "matchedfilter", "pooledmatchedfilter"));
-  study_.told[{"fog", 14.0}]["poolpointer"] = seeds(10, 60);
+  study_.told[{"fog", 14.0}]["poolpointer"] = hostile_seeds(10, 60);
   const std::string report = hostile_report(settings_, study_, "");
   EXPECT_THAT(report, HasSubstr(" 7 / 6 | "));
   EXPECT_THAT(hostile_csv(settings_, study_).csv(), HasSubstr("\npoolpointer,told-fog,14,2000,0.07,"));
@@ -179,13 +179,13 @@ TEST_F(HostileReport, SaysWhatBecomesOfThoseThatAreTold) {
 
 TEST_F(HostileReport, JudgesMotionBothWays) {
   add_motion();
-  std::vector<HostileCounts> biased = seeds(100, 150);
+  std::vector<HostileCounts> biased = hostile_seeds(100, 150);
   biased[0].near_target = biased[1].near_target = 500;
   biased[0].error_um = 12'000'000;
   biased[1].error_um = 8'000'000;
   study_.cells[{"motion", 14.0}]["poolpointer"] = biased;
   EXPECT_DOUBLE_EQ(mean_error(biased), 0.02);
-  EXPECT_DOUBLE_EQ(mean_error(seeds(20)), 0.0);
+  EXPECT_DOUBLE_EQ(mean_error(hostile_seeds(20)), 0.0);
   const std::string report = hostile_report(settings_, study_, "");
   EXPECT_THAT(report, HasSubstr("motion, 14 klux:"));
   EXPECT_THAT(report, ContainsRegex("poolPointer +\\| +0\\.84 +\\| +0\\.75 +\\| +- +\\| +20 +\\| +25 / 15 "

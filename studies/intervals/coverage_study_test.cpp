@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::ThrowsMessage;
 
-CoverageSettings small_study() {
+CoverageSettings small_coverage_study() {
   CoverageSettings settings;
   settings.study.sensor = parse_preset("thesis");
   settings.study.readouts = {ReadoutParameters::defaults(Readout::kEzPointer),
@@ -47,7 +47,7 @@ const CoverageCell& cell_of(const CoverageStudy& study, const std::string& estim
 
 TEST(CoverageStudy, IntervalsHoldWithTheNamedTable) {
   SCOPED_TRACE(test_seed_message());
-  const CoverageSettings settings = small_study();
+  const CoverageSettings settings = small_coverage_study();
   const CoverageStudy study = run_coverage_study(settings);
   EXPECT_EQ(study.cells.size(), 2U * 2U * 2U * 5U);  // read-outs, frame counts, states, figures
   for (const CoverageCell& cell : study.cells) {
@@ -65,7 +65,7 @@ TEST(CoverageStudy, IntervalsHoldWithTheNamedTable) {
 // The fault that the study is there to find: a table for each seed, and intervals that do not know of it.
 TEST(CoverageStudy, ATableForEachSeedFails) {
   SCOPED_TRACE(test_seed_message());
-  CoverageSettings settings = small_study();
+  CoverageSettings settings = small_coverage_study();
   settings.calibrate_each_seed = true;
   const CoverageStudy study = run_coverage_study(settings);
   for (const char* estimator : {"ezpointer", "hispointer"}) {
@@ -78,11 +78,11 @@ TEST(CoverageStudy, ATableForEachSeedFails) {
 }
 
 TEST(CoverageStudy, Refusals) {
-  CoverageSettings settings = small_study();
+  CoverageSettings settings = small_coverage_study();
   settings.frames = {300, 1000};
   EXPECT_THAT([&] { (void)run_coverage_study(settings); },
               ThrowsMessage<InputError>(HasSubstr("a divisor of 1000")));
-  settings = small_study();
+  settings = small_coverage_study();
   settings.seeds = 1;
   EXPECT_THAT([&] { (void)run_coverage_study(settings); }, ThrowsMessage<InputError>(HasSubstr("two seeds")));
 }
@@ -108,7 +108,7 @@ CoverageCell cell_with(double spread, std::uint64_t covered, bool by_spread, Cov
 }
 
 TEST(CoverageReport, SentencesFollowTheFigures) {
-  CoverageSettings settings = small_study();
+  CoverageSettings settings = small_coverage_study();
   settings.frames = {1000};
   CoverageStudy study;
   for (const bool after : {false, true}) {

@@ -21,7 +21,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-FidelitySettings small_settings() {
+FidelitySettings small_fidelity_study() {
   FidelitySettings settings;
   settings.sensor = parse_preset("thesis");
   settings.scenes = {{"wall", TargetMap(10, 20, {2.0, 1.0})}, {"far", TargetMap(10, 20, {4.0, 1.0})}};
@@ -63,7 +63,7 @@ TEST(FidelityStudy, PromisesAreKeptOpenOrBroken) {
 
 // The limits that auto relies on, measured again with few frames: six standard errors leave chance no room.
 TEST(FidelityStudy, TheFastSamplerIsWithinTheLimitsThatAutoUses) {
-  FidelitySettings settings = small_settings();
+  FidelitySettings settings = small_fidelity_study();
   settings.readouts.assign(kThesisReadouts.begin(), kThesisReadouts.end());
   const FidelityStudy study = run_fidelity_study(settings);
   ASSERT_EQ(study.cells.size(), settings.scenes.size() * settings.readouts.size());
@@ -76,7 +76,7 @@ TEST(FidelityStudy, TheFastSamplerIsWithinTheLimitsThatAutoUses) {
 }
 
 TEST(FidelityStudy, FiguresAreTheSameWhateverTheThreads) {
-  FidelitySettings settings = small_settings();
+  FidelitySettings settings = small_fidelity_study();
   settings.threads = 1;
   const FidelityStudy one = run_fidelity_study(settings);
   settings.threads = 3;
@@ -109,7 +109,7 @@ FidelityStudy made_up(const FidelitySettings& settings, double difference, doubl
 }
 
 TEST(FidelityReport, StatementsFollowTheFigures) {
-  const FidelitySettings settings = small_settings();
+  const FidelitySettings settings = small_fidelity_study();
   const std::string good = fidelity_report(made_up(settings, 1e-6, 90.0), settings, "command");
   EXPECT_THAT(good, HasSubstr("hold for 2 of 2 read-outs"));
   EXPECT_THAT(good, HasSubstr("costs less than the exact streams for 2 of 2 read-outs"));
@@ -124,7 +124,7 @@ TEST(FidelityReport, StatementsFollowTheFigures) {
 }
 
 TEST(FidelityReport, CsvHasEveryToleranceOfEveryCell) {
-  const FidelitySettings settings = small_settings();
+  const FidelitySettings settings = small_fidelity_study();
   const FidelityStudy study = made_up(settings, 1e-6, 90.0);
   const std::string csv = fidelity_csv(study);
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(csv, '\n')),
@@ -132,11 +132,11 @@ TEST(FidelityReport, CsvHasEveryToleranceOfEveryCell) {
 }
 
 TEST(FidelityStudy, Refusals) {
-  FidelitySettings settings = small_settings();
+  FidelitySettings settings = small_fidelity_study();
   settings.readouts = {Readout::kPoolPointer};
   EXPECT_THAT([&] { run_fidelity_study(settings); },
               testing::ThrowsMessage<InputError>(HasSubstr("poolpointer reads streams")));
-  settings = small_settings();
+  settings = small_fidelity_study();
   settings.frames = 0;
   EXPECT_THROW(run_fidelity_study(settings), InputError);
 }

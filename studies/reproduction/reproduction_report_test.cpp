@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-AccuracyPoint point(Readout readout, double klux, double distance_m, double precision) {
+AccuracyPoint measured_point(Readout readout, double klux, double distance_m, double precision) {
   AccuracyPoint p{};
   p.estimator = readout_name(readout);
   p.title = readout_title(readout);
@@ -36,7 +36,7 @@ AccuracyStudy study(const std::vector<Readout>& readouts, double klux, const std
   AccuracyStudy result;
   for (const Readout readout : readouts) {
     for (const double distance : distances) {
-      result.points.push_back(point(readout, klux, distance, precision));
+      result.points.push_back(measured_point(readout, klux, distance, precision));
     }
   }
   return result;

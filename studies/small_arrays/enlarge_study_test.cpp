@@ -30,7 +30,7 @@ TargetMap two_walls(int columns, int rows, int edge) {
   return map;
 }
 
-EnlargeSettings small_study() {
+EnlargeSettings small_enlarge_study() {
   EnlargeSettings settings;
   settings.sensor = find_sensor("thesis");
   settings.sensor.columns = 24;
@@ -70,7 +70,7 @@ TEST(EnlargeStudy, SpotsWithoutAnErrorLeaveTheErrorOfTheEnlarger) {
   // The spots are at the odd columns. Column 14 is the first one of the near wall, and midway between spots
   // of both walls: nearest takes the far one, bilinear the middle.
   const EnlargeScene scene{"walls", two_walls(24, 20, 14), {}};
-  EnlargeSettings settings = small_study();
+  EnlargeSettings settings = small_enlarge_study();
   settings.arrays = {{12, 10}};
   const EnlargeStudy study = run_enlarge_study(settings, std::span(&scene, 1));
   const EnlargeRow& nearest = find_row(study, {12, 10}, kNoError, "nearest");
@@ -82,7 +82,7 @@ TEST(EnlargeStudy, SpotsWithoutAnErrorLeaveTheErrorOfTheEnlarger) {
 
 TEST(EnlargeStudy, HasEveryArrayReadOutAndEnlarger) {
   const EnlargeScene scene{"walls", two_walls(24, 20, 14), {}};
-  EnlargeSettings settings = small_study();
+  EnlargeSettings settings = small_enlarge_study();
   const EnlargeStudy study = run_enlarge_study(settings, std::span(&scene, 1));
   ASSERT_EQ(study.rows.size(), 1U + 2U * 2U * 4U);
   EXPECT_EQ(study.rows[0].enlarger, kNotEnlarged);
@@ -106,7 +106,7 @@ TEST(EnlargeStudy, GuessedPixelsAreNotJudged) {
   for (std::size_t row = 0; row < 20; ++row) {
     scene.guessed[row * 24 + 14] = true;  // those that nearest gets wrong
   }
-  EnlargeSettings settings = small_study();
+  EnlargeSettings settings = small_enlarge_study();
   settings.arrays = {{12, 10}};
   const EnlargeStudy study = run_enlarge_study(settings, std::span(&scene, 1));
   const SceneScore& nearest = find_row(study, {12, 10}, kNoError, "nearest").seeds[0];
@@ -116,7 +116,7 @@ TEST(EnlargeStudy, GuessedPixelsAreNotJudged) {
 
 TEST(EnlargeStudy, ThreadsDoNotChangeAResult) {
   const EnlargeScene scene{"walls", two_walls(24, 20, 14), {}};
-  EnlargeSettings settings = small_study();
+  EnlargeSettings settings = small_enlarge_study();
   const EnlargeStudy two = run_enlarge_study(settings, std::span(&scene, 1));
   settings.threads = 1;
   const EnlargeStudy one = run_enlarge_study(settings, std::span(&scene, 1));
@@ -127,7 +127,7 @@ TEST(EnlargeStudy, ThreadsDoNotChangeAResult) {
 
 TEST(EnlargeStudy, PicturesTruthLargeArrayAndEachEnlarger) {
   const EnlargeScene scene{"walls", two_walls(24, 20, 14), {}};
-  EnlargeSettings settings = small_study();
+  EnlargeSettings settings = small_enlarge_study();
   settings.readouts = {"histogram32", "hispointer"};
   settings.pictured_scene = "walls";
   settings.pictured_array = {6, 5};
@@ -146,10 +146,10 @@ TEST(EnlargeStudy, PicturesTruthLargeArrayAndEachEnlarger) {
 TEST(EnlargeStudy, RefusesScenesAndArraysThatDoNotFit) {
   const EnlargeScene narrow{"walls", two_walls(23, 20, 14), {}};
   EXPECT_THAT(
-      [&] { (void)run_enlarge_study(small_study(), std::span(&narrow, 1)); },
+      [&] { (void)run_enlarge_study(small_enlarge_study(), std::span(&narrow, 1)); },
       ThrowsMessage<InputError>(HasSubstr("walls: 23 x 20 pixels are not the 24 x 20 of the large array")));
   const EnlargeScene scene{"walls", two_walls(24, 20, 14), {}};
-  EnlargeSettings settings = small_study();
+  EnlargeSettings settings = small_enlarge_study();
   settings.arrays = {{24, 20}};
   EXPECT_THAT([&] { (void)run_enlarge_study(settings, std::span(&scene, 1)); },
               ThrowsMessage<InputError>(HasSubstr("a small array of 24 x 20 is the large one")));

@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-WalkSettings small_study() {
+WalkSettings small_walk_study() {
   WalkSettings settings;
   settings.sensor = parse_preset("thesis");
   settings.sensor.acquisitions = 1000;
@@ -29,7 +29,7 @@ WalkSettings small_study() {
 }
 
 TEST(WalkStudy, DimTargetsSeemFartherThanTheTablesBrightOnes) {
-  const std::vector<WalkReadout> results = run_walk_study(small_study());
+  const std::vector<WalkReadout> results = run_walk_study(small_walk_study());
   ASSERT_EQ(results.size(), 1U);
   const WalkReadout& histogram = results.front();
   ASSERT_EQ(histogram.points.size(), 4U);
@@ -50,7 +50,7 @@ TEST(WalkStudy, DimTargetsSeemFartherThanTheTablesBrightOnes) {
 }
 
 TEST(WalkStudy, DoesNotDependOnTheThreads) {
-  WalkSettings settings = small_study();
+  WalkSettings settings = small_walk_study();
   settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer));
   settings.threads = 1;
   const std::vector<WalkReadout> one = run_walk_study(settings);
@@ -65,7 +65,7 @@ TEST(WalkStudy, DoesNotDependOnTheThreads) {
 }
 
 TEST(WalkStudy, ColumnsThatHearEachOtherAreReadInPairs) {
-  WalkSettings settings = small_study();
+  WalkSettings settings = small_walk_study();
   const std::vector<WalkReadout> alone = run_walk_study(settings);
   settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer));
   const std::vector<WalkReadout> both = run_walk_study(settings);
@@ -102,7 +102,7 @@ TEST(WalkReadout, FiguresByHand) {
 
 TEST(WalkStudy, RefusesWhatMakesNoStudy) {
   const auto refused = [](auto change, const char* reason) {
-    WalkSettings settings = small_study();
+    WalkSettings settings = small_walk_study();
     change(settings);
     EXPECT_THAT([&] { (void)run_walk_study(settings); }, ThrowsMessage<InputError>(HasSubstr(reason)))
         << reason;

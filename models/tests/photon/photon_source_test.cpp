@@ -7,18 +7,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "dtof/core/error.hpp"
 #include "dtof/core/parallel.hpp"
 #include "dtof/photon/fast_photon_source.hpp"
 #include "dtof/photon/mean_photon_source.hpp"
 #include "dtof/photon/physics.hpp"
 #include "dtof/sensor/preset.hpp"
+#include "tests/core/refusal.hpp"
 #include "tests/core/test_seed.hpp"
 #include "tests/photon/statistics.hpp"
 
@@ -40,15 +39,6 @@ class PhotonSourceTest : public ::testing::Test {
   SensorModel model_ = parse_preset("thesis");
   testing::ScopedTrace trace_{__FILE__, __LINE__, test_seed_message()};
 };
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 /// The promises of ColumnStream.
 void check_stream(const ColumnStream& stream, const PhotonSource& source) {

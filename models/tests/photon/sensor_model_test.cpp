@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "dtof/core/error.hpp"
+#include "tests/core/refusal.hpp"
 
 namespace dtof {
 namespace {
@@ -18,15 +18,6 @@ using ::testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(SensorModel, RefusesBadPhysics) {
   struct Case {

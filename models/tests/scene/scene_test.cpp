@@ -6,15 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "dtof/core/error.hpp"
 #include "dtof/core/physical_constants.hpp"
+#include "tests/core/refusal.hpp"
 
 namespace dtof {
 namespace {
@@ -23,15 +22,6 @@ using ::testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 std::vector<PixelTarget> all_targets(const TargetMap& map) {
   std::vector<PixelTarget> targets;

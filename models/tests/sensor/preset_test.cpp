@@ -5,28 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <functional>
 #include <regex>
 #include <sstream>
 #include <string>
 #include <string_view>
 
-#include "dtof/core/error.hpp"
+#include "tests/core/refusal.hpp"
 
 namespace dtof {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(Preset, ThesisCalibration) {
   const SensorModel model = parse_preset("thesis");

@@ -12,7 +12,7 @@
 namespace dtof {
 namespace {
 
-constexpr std::uint64_t kMostClocksOfAFrame = 200000;
+constexpr std::uint64_t kMostClocksWithGaps = 200000;
 constexpr std::uint32_t kAbort = DTOF_CONTROL_ABORT_MASK;
 
 // Rounds of the random tests: the environment variable DTOF_GAP_ROUNDS, else as many as take seconds.
@@ -69,7 +69,7 @@ TEST_P(Gaps, ChangeNoResult) {
     std::size_t pushed = 0;
     std::uint32_t late = random() % longest;
     for (std::uint64_t clocks = 0; bench_.sink().frames().size() == before; ++clocks) {
-      ASSERT_LT(clocks, kMostClocksOfAFrame) << "the frame does not end";
+      ASSERT_LT(clocks, kMostClocksWithGaps) << "the frame does not end";
       // A source that cannot wait begins when the array waits for an acquisition.
       const bool held = !bench_.source_waits() && pushed % bench_.acquisition_lines() == 0 &&
                         (bench_.reference().inside() || !bench_.reference().starved());
@@ -114,7 +114,7 @@ TEST_P(Gaps, CostTheirOwnClocksAlone) {
     std::size_t pushed = 0;
     std::uint64_t wait = 0;
     for (std::uint64_t clocks = 0; bench_.sink().frames().size() == before; ++clocks) {
-      ASSERT_LT(clocks, kMostClocksOfAFrame) << "the frame does not end";
+      ASSERT_LT(clocks, kMostClocksWithGaps) << "the frame does not end";
       for (; wait == 0 && pushed < lines.size() && bench_.source().waiting() < 2; ++pushed) {
         bench_.source().push(lines[pushed], (pushed + 1) % bench_.acquisition_lines() == 0);
         if (gaps && pushed % bench_.acquisition_lines() == 0) {
@@ -252,7 +252,7 @@ TEST_P(DroppedAcquisitions, AreWholeAndCounted) {
       std::uint64_t clocks = 0;
       while ((bench_.get(DTOF_STATUS) & DTOF_STATUS_BUSY_MASK) != 0 || !bench_.sink().idle()) {
         bench_.clock();
-        ASSERT_LT(++clocks, kMostClocksOfAFrame) << "the frame does not end";
+        ASSERT_LT(++clocks, kMostClocksWithGaps) << "the frame does not end";
       }
     }
     std::size_t next = 0;
@@ -272,7 +272,7 @@ TEST_P(DroppedAcquisitions, AreWholeAndCounted) {
     bench_.sink().stall_probability = 0.0;
     for (std::uint64_t clocks = 0; !bench_.sink().idle(); ++clocks) {
       bench_.clock();
-      ASSERT_LT(clocks, kMostClocksOfAFrame) << "the sink waits for words";
+      ASSERT_LT(clocks, kMostClocksWithGaps) << "the sink waits for words";
     }
     bench_.clocks(2 * bench_.acquisition_lines() + 20);
     expect_counters();
