@@ -67,7 +67,7 @@ void ReadoutOptions::add_to(CLI::App& command) {
     } else {
       group->add_option_function<int>(
           option, [this, name = entry.name](const int& number) { values[name] = number; },
-          fmt::format("{}\n(default: {})", help, default_source(entry.name)));
+          fmt::format("{}\n({}; default: {})", help, entry.legal, default_source(entry.name)));
     }
   }
   group

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/parameter_limits.hpp"
 #include "dtof/readout/pixelwise_model.hpp"
 #include "dtof/readout/pool_evidence.hpp"
 
@@ -331,14 +332,13 @@ PoolPointerParameters PoolNumbers::common() const {
           .cell_shift = cell_shift,
           .second_target = second_target,
           .prior = keeps_prior,
+          .engine_columns = engine_columns,
           .coarse_share = coarse_share,
           .track_share = track_share,
-          .engine_columns = engine_columns,
           .smooth = smooth};
 }
 
 void PoolNumbers::validate() const {
-  require_range("COUNT_WIDTH", count_width, 4, 8);
   require_range("RIVAL_MOVES", rival_moves, 0, 1);
   require_range("LEFT_NEEDS_MARGIN", left_needs_margin, 0, 1);
   common().validate(count_width);
@@ -442,10 +442,11 @@ void track_event(PoolTracks& word, const PoolGroup& group, const PoolEvent& even
 }
 
 PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t acquisitions) {
-  require_range("NP", np, 8, 16);
-  const auto fraction_bits = static_cast<unsigned>(16 - np);
   ReadoutParameters limits;
+  limits.readout = Readout::kPoolPointer;
   limits.np = np;
+  require_legal(limits, "NP");
+  const auto fraction_bits = static_cast<unsigned>(16 - np);
   PoolColumn events(static_cast<std::size_t>(column.rows()));
   for (int row = 0; row < column.rows(); ++row) {
     check_detections(column.row(row), row, limits, acquisitions);

@@ -464,7 +464,7 @@ TEST_F(PoolPointer, RefusesMalformedStreamsAndParameters) {
   refused([](PoolNumbers& p) { p.rival_moves = 0; }, "OFFSET_BITS must be 0 if RIVAL_MOVES is 0, not 6");
   refused([](PoolNumbers& p) { p.cell_shift = 7; }, "CELL_SHIFT must be 8 to 10, not 7");
   refused([](PoolNumbers& p) { p.labels = 9; }, "LABELS must be 2 to 8, not 9");
-  refused([](PoolNumbers& p) { p.track_share = 60; }, "TRACK_SHARE must be 1 to 49, not 60");
+  refused([](PoolNumbers& p) { p.track_share = 60; }, "TRACK_SHARE must be at least 1, and at most 63 together with COARSE_SHARE, not 60");
 }
 
 }  // namespace

@@ -69,9 +69,9 @@ TEST_P(Driver, FindsWhatIsThere) {
                                                                                   .pointer_shift = 0,
                                                                                   .rival_moves = false,
                                                                                   .cell_shift = 0,
+                                                                                  .engine_columns = 0,
                                                                                   .coarse_share = 0,
-                                                                                  .track_share = 0,
-                                                                                  .engine_columns = 0};
+                                                                                  .track_share = 0};
   EXPECT_EQ(device_.group_size, pool.group_size);
   EXPECT_EQ(device_.labels, pool.labels);
   EXPECT_EQ(device_.score_bits, pool.score_bits);
