@@ -60,7 +60,7 @@ struct TruthComparison {
   double offset_m = 0.0;  ///< zero distance of the recording: --offset, or the median difference to truth
 };
 
-/// Whether the recording knows a true distance of a pixel of the region: not of one that saw nothing.
+/// True if the recording has a true distance for a pixel of the region that detected photons.
 bool has_truth(const Recording& recording, const Region& region) {
   if (recording.true_distance.empty()) {
     return false;
@@ -261,11 +261,12 @@ void check_recording_options(const CLI::App& command, const std::string& format)
     }
   } else {
     for (const char* option : {"--array-columns", "--array-rows"}) {
-      refuse_without_effect(command, option, "only a TDC stream (CSV) does not know its array");
+      refuse_without_effect(command, option, "only a TDC stream (CSV) lacks the size of its array");
     }
   }
   if (format == "csv" || format == "picoquant" || format == "photon-hdf5" || format == "tmf8829") {
-    refuse_without_effect(command, "--bin-width", "only arrays, TMF8820 and VL53L8CH do not know it");
+    refuse_without_effect(command, "--bin-width",
+                          "only arrays, TMF8820 and VL53L8CH logs lack the bin width");
   }
   if (format != "mat" && format != "hdf5") {
     for (const char* option : {"--tick", "--variable"}) {

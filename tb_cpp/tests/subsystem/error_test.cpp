@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes wrong at dtof_subsystem: it is told, and the next frame is right.
+// What goes wrong at dtof_subsystem: the subsystem reports it, and the next frame is right.
 #include <gtest/gtest.h>
 
 #include "tests/subsystem/subsystem_test_support.hpp"
@@ -52,7 +52,7 @@ TEST_P(SubsystemErrors, AnUnderrunLosesTheRestOfItsAcquisitionAlone) {
     write_settings(bench_, settings);
     bench_.set(DTOF_RELEASE, 1 + random() % 3);
     std::vector<Line> lines = make_lines(bench_.configuration(), settings.acquisitions, random);
-    for (Line& line : lines) {  // a dark line could not be told from one that is missing
+    for (Line& line : lines) {  // a dark line would look like a missing line
       line.back() = static_cast<Timestamp>(pick(random, bench_.configuration().parameters.code_count() - 1));
     }
     push_lines(bench_, lines);

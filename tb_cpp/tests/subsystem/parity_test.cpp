@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parity of the subsystem's own memories: bits that change in the line buffer and in the raster buffer are
-// told, and nothing else is.
+// reported, and nothing else is.
 #include <gtest/gtest.h>
 
 #include <optional>
