@@ -265,8 +265,7 @@ void check_recording_options(const CLI::App& command, const std::string& format)
     }
   }
   if (format == "csv" || format == "picoquant" || format == "photon-hdf5" || format == "tmf8829") {
-    refuse_without_effect(command, "--bin-width",
-                          "only arrays, TMF8820 and VL53L8CH logs lack the bin width");
+    refuse_without_effect(command, "--bin-width", "only arrays, TMF8820 and VL53L8CH lack it");
   }
   if (format != "mat" && format != "hdf5") {
     for (const char* option : {"--tick", "--variable"}) {

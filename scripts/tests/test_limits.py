@@ -123,13 +123,13 @@ class Written(unittest.TestCase):
 
     def test_help_and_page(self):
         self.assertEqual(limits.legal_text(LIMITS, TABLE, "NP"), "3 to 16 bits; poolPointer: 8 to 16 bits")
-        self.assertEqual(limits.legal_text(LIMITS, TABLE, "GUARD"), "0 to 2^NP")
+        self.assertEqual(limits.legal_text(LIMITS, TABLE, "POINTER_STEP"), "1 to 2^(NP-1) - 1")
         self.assertTrue(limits.page_row(LIMITS, TABLE, "dtof_array", "COUNT_WIDTH", "10").startswith("| `COUNT_WIDTH` | 1 to 16 | 10 | bits | 1 to 8 |"))
         self.assertIn("| 0 or 2 to 6; 0 if RIVAL_MOVES is 0 | 6 | bits |", limits.page_row(LIMITS, TABLE, "dtof_pool_pointer_array", "OFFSET_BITS", "6"))
 
     def test_members_have_the_defaults(self):
         lists = readouts_cpp.member_lists(TABLE, LIMITS)
-        self.assertIn("int guard = 46;", lists["members of all read-outs"])
+        self.assertIn("int confidence_width = 4;", lists["members of all read-outs"])
         self.assertIn("bool rival_moves = true;", lists["members of a pool read-out"])
 
 
