@@ -29,7 +29,7 @@ DetectionSettings small_settings() {
   return settings;
 }
 
-TEST(Detection, PoolPointerTellsAWallFromASkyWithOneThreshold) {
+TEST(Detection, PoolPointerSeparatesAWallFromASkyWithOneThreshold) {
   const std::vector<ReadoutDetection> study = run_detection(small_settings());
   ASSERT_EQ(study.size(), 2U);
   for (const ReadoutDetection& readout : study) {

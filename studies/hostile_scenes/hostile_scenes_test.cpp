@@ -146,7 +146,7 @@ TEST_F(HostileReport, TablesHoldEveryFigure) {
   EXPECT_THAT(curves[0].x, testing::Contains(testing::DoubleEq(50.0)));
 }
 
-TEST_F(HostileReport, NamesWhatRemainsOfThoseThatAreTold) {
+TEST_F(HostileReport, NamesWhatRemainsOfTheCompensatedEstimators) {
   study_.cells[{"clear", 14.0}]["poolpointer"] = seeds(0, 400);  // no error can be told from these
   study_.cells[{"fog", 14.0}]["poolpointer"] = seeds(0, 400);
   study_.compensated[{"late-laser", 14.0}]["poolpointer"] = seeds(0, 70);
@@ -161,7 +161,7 @@ TEST_F(HostileReport, NamesWhatRemainsOfThoseThatAreTold) {
                         "fog 2, late-laser 7.\n"));
 }
 
-TEST_F(HostileReport, SaysWhatBecomesOfThoseThatAreTold) {
+TEST_F(HostileReport, HasTheErrorsOfTheCompensatedEstimators) {
   EXPECT_THAT(compensated_conditions(settings_), ElementsAre("fog", "late-laser"));
   EXPECT_THAT(compensated_estimators(settings_),
               ElementsAre("coarsehistogram", "poolpointer", "matchedfilter", "pooledmatchedfilter"));
@@ -273,7 +273,7 @@ TEST_F(HostileScenesTest, GlassFoolsAndSkewIsSubtracted) {
             static_cast<std::uint64_t>(2 * engine_columns_judged() * settings_.rows));
 }
 
-TEST_F(HostileScenesTest, GlassDoesNotFoolThoseThatAreTold) {
+TEST_F(HostileScenesTest, GlassDoesNotFoolCompensatedEstimators) {
   settings_.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
   settings_.conditions = {"clear", "glass"};
   const HostileScenes study = run_hostile_scenes(settings_);
@@ -285,7 +285,7 @@ TEST_F(HostileScenesTest, GlassDoesNotFoolThoseThatAreTold) {
   }
 }
 
-TEST_F(HostileScenesTest, ALaserThatIsLateDoesNotFoolThoseThatAreTold) {
+TEST_F(HostileScenesTest, ALateLaserDoesNotFoolCompensatedEstimators) {
   settings_.readouts = {ReadoutParameters::defaults(Readout::kCoarseHistogram),
                         ReadoutParameters::defaults(Readout::kPoolPointer)};
   settings_.conditions = {"clear", "late-laser"};
@@ -299,7 +299,7 @@ TEST_F(HostileScenesTest, ALaserThatIsLateDoesNotFoolThoseThatAreTold) {
   EXPECT_LT(errors(study.compensated.at({"late-laser", 2.0})), 0.05);
 }
 
-TEST_F(HostileScenesTest, SkewDoesNotFoolThoseThatAreTold) {
+TEST_F(HostileScenesTest, SkewDoesNotFoolCompensatedEstimators) {
   settings_.sensor.acquisitions = 3333;
   settings_.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
   settings_.conditions = {"clear", "pixel-skew"};

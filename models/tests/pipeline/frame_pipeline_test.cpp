@@ -166,7 +166,7 @@ TEST(FramePipeline, APrecisionTakesFramesUntilItIsReached) {
   EXPECT_TRUE(reached.precision_reached);
 }
 
-TEST(FramePipeline, AnObserverIsToldEveryColumn) {
+TEST(FramePipeline, AnObserverReceivesEveryColumn) {
   std::vector<std::size_t> reported;
   const ModelEngine engine({.observer = [&](std::size_t done, std::size_t total) {
     EXPECT_EQ(total, 12U);

@@ -61,7 +61,7 @@ TEST(RunFrame, RowMajorAndTheSameForEveryThreadCount) {
 }
 
 // Columns of an engine use each other's results, so that a part of a frame needs whole engines.
-TEST(RunFrame, ColumnsThatHearEachOtherAreReadTogether) {
+TEST(RunFrame, ColumnsThatUseEachOtherAreReadTogether) {
   SCOPED_TRACE(test_seed_message());
   ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer, 10);
   parameters.pool.engine_columns = 4;

@@ -32,7 +32,7 @@ TEST(FaultStudy, FaultsStayWhereTheyAre) {
   }
 }
 
-TEST(FaultStudy, AnSramAcrossABorderIsHeardByBothEngines) {
+TEST(FaultStudy, AnSramAcrossABorderAffectsBothEngines) {
   EXPECT_EQ(affected_columns({4, 4}, 6, 12), (ColumnRange{0, 12}));
   EXPECT_EQ(affected_columns({0, 4}, 6, 12), (ColumnRange{0, 6}));
   EXPECT_EQ(affected_columns({8, 4}, 6, 12), (ColumnRange{6, 6}));

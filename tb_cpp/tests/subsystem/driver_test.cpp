@@ -227,7 +227,7 @@ TEST_P(DriverFrames, AreReadInMillimetres) {
   }
 }
 
-TEST_P(Driver, KnowsTheOrderOfTheStream) {
+TEST_P(Driver, FollowsTheOrderOfTheStream) {
   std::size_t index = 0;
   std::uint16_t row = 0;
   std::uint16_t column = 0;

@@ -65,7 +65,7 @@ TEST_P(Parity, IsQuietWhileNothingChanges) {
   }
 }
 
-TEST_P(Parity, OfALineTellsEachWordOnce) {
+TEST_P(Parity, OfALineReportsEachWordOnce) {
   if (!has_parity()) {
     EXPECT_FALSE(sram("u_line_buffer").has_value()) << "SRAMs are writable where there is parity";
     return;
@@ -110,7 +110,7 @@ TEST_P(Parity, OfALineTellsEachWordOnce) {
   }
 }
 
-TEST_P(Parity, OfAResultTellsEveryBit) {
+TEST_P(Parity, OfAResultReportsEveryBit) {
   const bool raster = (bench_.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0;
   if (!has_parity() || !raster) {
     return;
