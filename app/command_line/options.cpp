@@ -76,7 +76,7 @@ void ReadoutOptions::add_to(CLI::App& command) {
       ->expected(2);
   group->add_flag(
       "--template", with_template,
-      "TEMPLATE of the pool read-outs: decode takes away what the sensor's cover glass and fog send back");
+      "TEMPLATE of the pool read-outs: decode subtracts the light of the sensor's cover glass and fog");
 }
 
 std::optional<int> ReadoutOptions::value(std::string_view parameter) const {

@@ -457,9 +457,9 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
                       "laser pulses per frame (default: CSV: the last one recorded, else 3333)");
   command
       ->add_option("--array-columns", options->recording.columns,
-                   "CSV: columns of the sensor (default: to the last one that detected something)")
+                   "CSV: columns of the sensor (default: up to the last detection)")
       ->check(CLI::Range(1, 65536));
-  command->add_option("--array-rows", options->recording.rows, "CSV: rows of the sensor, likewise")
+  command->add_option("--array-rows", options->recording.rows, "CSV: rows of the sensor (default: the same)")
       ->check(CLI::Range(1, 65536));
   command->add_option("--photons", options->photons,
                       "measured data: thin to this mean number of photons per pixel and frame");
@@ -482,7 +482,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
       "region's size; errors are then in the summary");
   add_truth_scale_option(*command, options->truth_scale);
   command->add_option("--offset", options->offset_mm,
-                      "mm that the recording calls zero, taken from every distance (default: each\n"
+                      "mm to subtract from every distance: the recording's zero (default: each\n"
                       "read-out's median difference to truth; 299.8 for a stream of preset thesis)");
   options->readout.add_to(*command);
   add_run_options(*command, options->run, true);
