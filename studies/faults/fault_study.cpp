@@ -316,14 +316,14 @@ void plan_cases(const FaultSubject& subject, const FaultStudyOptions& options,
                 std::vector<PlannedCase>& cases) {
   const Readout readout = subject.parameters().readout;
   const std::vector<ArraySram> srams = array_srams(RtlReadout(subject.configuration()));
-  const int column_groups = kFaultColumns / subject.parameters().columns_together();
+  const int engines_apart = kFaultColumns / subject.parameters().columns_together();
   // Frames for `faults` faults on two thirds of `places` in each.
   const auto add = [&](const FaultCase& fault, int faults, int places) {
     cases.push_back({&subject, fault, std::max((3 * faults + 2 * places - 1) / (2 * places), 1)});
   };
   for (const SramKind kind : sram_kinds(srams)) {
     const auto places =
-        std::min(static_cast<int>(std::ranges::count(srams, kind, &ArraySram::kind)), column_groups);
+        std::min(static_cast<int>(std::ranges::count(srams, kind, &ArraySram::kind)), engines_apart);
     const bool scratch = kind == SramKind::kEngineScratch;
     const int flips = scratch ? options.flips / kFlipsPerScratchFlip : options.flips;
     add({readout, FaultKind::kFlippedBit, kind, std::nullopt}, flips, places);
