@@ -127,6 +127,13 @@ class Written(unittest.TestCase):
         self.assertTrue(limits.page_row(LIMITS, TABLE, "dtof_array", "COUNT_WIDTH", "10").startswith("| `COUNT_WIDTH` | 1 to 16 | 10 | bits | 1 to 8 |"))
         self.assertIn("| 0 or 2 to 6; 0 if RIVAL_MOVES is 0 | 6 | bits |", limits.page_row(LIMITS, TABLE, "dtof_pool_pointer_array", "OFFSET_BITS", "6"))
 
+    def test_keys_of_the_sensor_file_have_the_same_limits(self):
+        """`dtof sensor --keys` prints the table of the page, and a test compares both."""
+        page = (ROOT / "docs/user/sensor_file.md").read_text(encoding="utf-8")
+        for key, parameter in (("timestamp_bits", "NP"), ("slots", "SLOTS")):
+            (limit,) = LIMITS.of("dtof_array", parameter)
+            self.assertRegex(page, rf"\n\| `{key}` \| {TABLE.parameters[parameter].default} \| {limit.legal}: [^|]+ \| {parameter}, ")
+
     def test_members_have_the_defaults(self):
         lists = readouts_cpp.member_lists(TABLE, LIMITS)
         self.assertIn("int confidence_width = 4;", lists["members of all read-outs"])
