@@ -107,6 +107,7 @@ class Limit:
     unknown: str = ""
     required: bool = True
     refused: list[str] = field(default_factory=list)
+    untried: list[str] = field(default_factory=list)
     used_by: str = ""
     meaning: str = ""
     page: str = ""
@@ -222,7 +223,8 @@ def csv(limits: Limits, table: Table) -> str:
         defaults = {name: table.default(first.get(top, next(iter(table.readouts))), name, 10) for name in table.parameters}
         for limit in limits.of(top):
             if limit.required:
-                lines += dict.fromkeys(f"{top},{settings},{limit.sentence}" for settings in limit.settings(defaults, numbers(table)))
+                lines += dict.fromkeys(f"{top},{settings},{limit.sentence}" for settings in limit.settings(defaults, numbers(table))
+                                       if settings not in limit.untried)
         lines += [f"{top},{settings}," for settings in limits.legal[top]]
     return "\n".join(lines) + "\n"
 
