@@ -4,7 +4,7 @@
 #
 # gives a test program the headers that nearly every test includes, compiled once for all tests. The tests include what they use all
 # the same: a compiler other than GCC, and a build without DTOF_UNITY (clang-tidy), read the headers themselves. ccache keeps such a
-# test only if it is told that the headers hold no times (CCACHE_SLOPPINESS).
+# test only with the option for headers without times (CCACHE_SLOPPINESS).
 
 function(dtof_test_prelude test)
   if(NOT DTOF_UNITY OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)

@@ -164,7 +164,7 @@ def tmf8820_variants(case: Case) -> None:
         require(truths == [100.0 * i for i in range(1 + unknown, 7)], f"{name}: true distances {truths}")
     shutil.rmtree(case.work / "out")
     require_heading(read("t20_serial.log"), "ams TMF8820, 1 captures of 9 zones): 1 columns x 9 rows")
-    require(not (case.work / "out" / "measurements.csv").exists(), "a serial log knows no distance")
+    require(not (case.work / "out" / "measurements.csv").exists(), "a serial log has no distance")
 
 
 def tmf8829(case: Case, name: str, columns: int, rows: int, *parts: str) -> None:

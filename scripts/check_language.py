@@ -4,7 +4,7 @@
 
 An error is: a comment, docstring or sentence that begins with "Of", whose noun the reader must guess; a thing "that there is", which should
 say what exists; in comments of the RTL a verb of people (hear, know, want, forget, be told), and on a page "hear", for wires do none of
-this. docs/notes/ and CHANGELOG.md may say what they like.
+this; a name in C++, Python or JavaScript with such a verb (told, hears_...). docs/notes/ and CHANGELOG.md may say what they like.
 """
 
 import re
@@ -15,11 +15,13 @@ from dtof_synth import program
 from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
-SOURCES = (".sv", ".svh", ".py", ".cpp", ".hpp", ".c", ".h", ".sh", ".mk", ".tcl", ".toml", ".cmake", ".in")
+SOURCES = (".sv", ".svh", ".py", ".cpp", ".hpp", ".c", ".h", ".js", ".sh", ".mk", ".tcl", ".toml", ".cmake", ".in")
 NO_NOUN = re.compile(r"(?:^|\s)(?://+|#+|\"\"\"|\*)\s*Of\s+[a-zA-Z]")
 NO_NOUN_ON_A_PAGE = re.compile(r"(?:^|[.:|]\s+)Of [a-z]")
 NOT_THERE = re.compile(r"\b(?:field|file|limit|name|one|row|those) that there (?:is|are)\b")
 PERSON = re.compile(r"//.*\b(hears?|heard|knows?|knew|wants?|wanted|forgets?|told)\b")
+PERSON_IN_A_NAME = re.compile(r"\b((?:hears|heard|told|knows)_\w+|told)\b(?=\s*[;=.\[({])")
+CODE = (".py", ".cpp", ".hpp", ".js")
 PERSON_ON_A_PAGE = re.compile(r"\b(hears?|heard)\b")
 
 
@@ -34,6 +36,9 @@ def problem(name: str, line: str) -> str:
         return f"'{found[1]}' on a page: wires do not" if found else ""
     if NO_NOUN.search(line):
         return "a comment begins with 'Of': say what it describes"
+    found = PERSON_IN_A_NAME.search(line) if name.endswith(CODE) and not name.startswith(("synth/", "scripts/tests/test_check_language.py")) else None
+    if found:
+        return f"the name '{found[1]}': functions and objects do not"
     found = PERSON.search(line) if name.startswith(("hdl/", "formal/", "fpga/", "examples/")) and name.endswith((".sv", ".svh")) else None
     return f"'{found[1]}' in the RTL: wires do not" if found else ""
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the lists of read-outs, parameters and RTL files that SystemVerilog, C++, CMake, FuseSoC, Bender and docs/user/configuration.md
-need, from readouts.toml and hdl/dtof.f, and the registers of dtof_subsystem for RTL, C, others' tools and the page on integration, from
+"""Writes the lists of read-outs, parameters, their limits and RTL files that SystemVerilog, C++, CMake, FuseSoC, Bender, lint and
+docs/user/configuration.md need, from readouts.toml, parameters.toml and hdl/dtof.f, and the registers of dtof_subsystem for RTL, C, others' tools and the page on integration, from
 hdl/subsystem/registers.toml, and the table of studies in docs/user/commands.md, from studies.toml, and the version in the files by which
 the project is cited, from CMakeLists.txt. --check only says which are stale."""
 
@@ -11,22 +11,23 @@ from collections.abc import Callable
 from pathlib import Path
 
 import file_lists
+import limits
 import register_maps
 import registers
 import release
 from dtof_synth import program
 from dtof_synth.errors import FlowError
-from dtof_synth.readouts import Expression, Readout, Table, Top, evaluate, load
+from dtof_synth.readouts import ARRAY, Expression, Readout, Table, Top, evaluate, load
 from figures import reports
-from readouts_cpp import WRITTEN, cpp_header, cpp_source, model_table, parameter_table, rtl_parameters, translated
+from readouts_cpp import WRITTEN, cpp_header, cpp_source, member_lists, model_members, model_table, parameter_table, rtl_parameters, translated
 
 ROOT = Path(__file__).resolve().parent.parent
-FEWEST_BITS, MOST_BITS = 3, 16  # of a timestamp
 PARAMETERS_BEGIN = "<!-- parameters of {}: written by scripts/generate.py -->\n"
 PARAMETERS_END = "<!-- end of parameters -->\n"
 PREFIX = "dtof_"  # of every module
 COLUMNS_BEGIN = "// Columns of dtof_array: written by scripts/generate.py\n"
 COLUMNS_END = "// end of columns\n"
+MEMBERS = "models/dtof/core/parameters.hpp"
 BENCH = "tb_cpp/subsystem/subsystem_testbench.sv"
 INTEGRATION = "docs/user/integration.md"
 COMMANDS = "docs/user/commands.md"
@@ -184,18 +185,20 @@ def inlined(name: str, text: str, lists: dict[str, list[str]]) -> str:
     return text
 
 
-def modules(table: Table) -> dict[str, str]:
-    """Generated texts: the columns of dtof_array; dtof_subsystem, which has one time gate for all arrays; and its bench."""
+def modules(table: Table, found: limits.Limits) -> dict[str, str]:
+    """Generated texts: the columns of dtof_array; dtof_subsystem, which has one time gate for all arrays; its bench; and the C++
+    structures that have the parameters."""
     column = {"parameters of a column": column_header("parameters", "UNUSEDPARAM"),
               "ports of a column": column_header("ports", "UNUSEDSIGNAL")}  # fmt: skip
     arrays = {"parameters of the arrays": subsystem_parameters(table)}
-    lists = {name: column for readout in table.readouts.values()
+    lists: dict[str, dict[str, list[str]]] = {name: column for readout in table.readouts.values()
              if readout.column and (ROOT / (name := f"hdl/thesis/{readout.column}.sv")).is_file()}  # fmt: skip
     lists[rtl_of("dtof_subsystem")] = arrays | {
         f"parameters of {top.name}": connections([name for name in top.parameters if name != "TIME_GATE"]) for top in table.tops.values()
     }
     lists[BENCH] = arrays | {"parameters of dtof_subsystem": connections(subsystem_names(table))}
-    return {name: inlined(name, (ROOT / name).read_text(encoding="utf-8"), found) for name, found in lists.items()}
+    lists[MEMBERS] = member_lists(table, found)
+    return {name: inlined(name, (ROOT / name).read_text(encoding="utf-8"), places) for name, places in lists.items()}
 
 
 def columns(table: Table) -> str:
@@ -217,15 +220,18 @@ def columns(table: Table) -> str:
     return "\n".join(lines) + "\n"
 
 
-def cmake(table: Table) -> str:
+def cmake(table: Table, found: limits.Limits) -> str:
+    (bits,) = found.of("dtof_array", "NP")
+    fewest, most = int(bits.lowest or 0), int(bits.highest or 0)
+
     def values(expression: Expression) -> str:
-        by_np = [evaluate(expression, {"NP": np}) for np in range(FEWEST_BITS, MOST_BITS + 1)]
+        by_np = [evaluate(expression, {"NP": np}) for np in range(fewest, most + 1)]
         return str(by_np[0]) if len(set(by_np)) == 1 else " ".join(map(str, by_np))
 
     lines = [
         "# SPDX-License-Identifier: Apache-2.0",
         f"# {WRITTEN}",
-        "# Defaults: one value, or one for each NP from 3 to 16.",
+        f"# Defaults: one value, or one for each NP from {fewest} to {most}.",
         f"set(DTOF_READOUTS {' '.join(table.readouts)})",
         f"set(DTOF_PARAMETERS {' '.join(name for name in table.parameters if name != 'ACQ_WIDTH')})",
         *(f"set(DTOF_PARAMETERS_{top.name} {' '.join(name for name in top.parameters if name != 'ACQ_WIDTH')})"
@@ -252,25 +258,26 @@ def column_files(text: str, table: Table) -> str:
     return head + COLUMNS_BEGIN + "".join(f"{column}\n" for column in columns) + COLUMNS_END + rest.split(COLUMNS_END)[1]
 
 
-def defaults(text: str, table: Table) -> str:
-    """The page of parameters with a table of defaults for each top."""
+def defaults(text: str, table: Table, found: limits.Limits) -> str:
+    """The page of parameters with a table for each top."""
     for top in table.tops.values():
         begin = PARAMETERS_BEGIN.format(top.name)
         if text.count(begin) != 1:
             raise FlowError(f"{CONFIGURATION} has no place for the parameters of {top.name}")
         head, rest = text.split(begin)
         users = [name for name, readout in table.readouts.items() if readout.top == top.name]
-        lines = ["| parameter | default | meaning |", "|---|---|---|"]
-        if top.name == "dtof_array":
+        own = " used by |" if top.name == ARRAY else ""
+        lines = [f"| parameter | legal | default | unit |{own} meaning |", f"|---|---|---|---|{'---|' if own else ''}---|"]
+        if top.name == ARRAY:
             numbers = ", ".join(f"{table.readouts[name].number} {table.readouts[name].title}" for name in users)
-            lines.append(f"| `READOUT` | 0 | {numbers} |")
+            lines.append(f"| `READOUT` | 0 to {len(users) - 1} | 0 | - | all | {numbers} |")
         for name in top.parameters:
             values: dict[int, list[str]] = {}
             for user in users:
                 values.setdefault(table.defaults(user)[name], []).append(table.readouts[user].title)
             usual = max(values, key=lambda value: len(values[value]))
             others = [f"{value} for {' and '.join(titles)}" for value, titles in values.items() if value != usual]
-            lines.append(f"| `{name}` | {'; '.join([str(usual), *others])} | {table.parameters[name].help} |")
+            lines.append(limits.page_row(found, table, top.name, name, "; ".join([str(usual), *others])))
         text = head + begin + "\n".join(lines) + "\n" + PARAMETERS_END + rest.split(PARAMETERS_END, 1)[1]
     return text
 
@@ -322,6 +329,8 @@ def main() -> int:
     check = "--check" in sys.argv
     try:
         table = load()
+        found = limits.load()
+        limits.check(found, table)
         current = {name: (ROOT / name).read_text(encoding="utf-8") for name in
                    ("hdl/dtof.f", CONFIGURATION, INTEGRATION, COMMANDS, release.CITATION)}
         whole = registers.load()
@@ -334,15 +343,17 @@ def main() -> int:
             "hdl/common/dtof_columns.svh": columns(table),
             "models/dtof/core/readout.hpp": cpp_header(table),
             "models/dtof/core/readout.cpp": cpp_source(table),
-            "models/dtof/core/parameter_table.cpp": parameter_table(table),
+            "models/dtof/core/parameter_table.cpp": parameter_table(table, found),
+            "models/dtof/core/parameter_limits.cpp": limits.cpp_limits(found, table, model_members(table)),
+            "hdl/lint/parameter_limits.csv": limits.csv(found, table),
             "models/dtof/readout/model_table.cpp": model_table(table),
             "tb_cpp/rtl/rtl_parameters.cpp": rtl_parameters(table),
-            "cmake/readouts.cmake": cmake(table),
+            "cmake/readouts.cmake": cmake(table, found),
             "hdl/dtof_no_srams.f": file_lists.without_srams(listing),
             "dtof.core": file_lists.fusesoc(table, listing, file_lists.included(ROOT / "hdl")),
             "Bender.yml": file_lists.bender(listing),
-            CONFIGURATION: defaults(current[CONFIGURATION], table),
-            **modules(table),
+            CONFIGURATION: defaults(current[CONFIGURATION], table, found),
+            **modules(table, found),
             "hdl/subsystem/dtof_registers_pkg.sv": registers.systemverilog(whole),
             "driver/dtof_registers.h": registers.c_header(whole),
             **register_maps.files(whole),

@@ -5,6 +5,7 @@ Also the translation of an expression of readouts.toml into C++ or SystemVerilog
 import ast
 from collections.abc import Callable
 
+import limits
 from dtof_synth.errors import FlowError
 from dtof_synth.readouts import Expression, Table
 
@@ -186,11 +187,27 @@ def model_members(table: Table) -> dict[str, str]:
             for name in table.parameters if name in own | chosen}  # fmt: skip
 
 
-def parameter_table(table: Table) -> str:
-    rows = "\n".join(f'    entry<&{member}>("{name}",\n        "{table.parameters[name].help}"),'
+def member_lists(table: Table, found: limits.Limits) -> dict[str, list[str]]:
+    """Members of ReadoutParameters and PoolPointerParameters. Initial values: defaults of the first read-out that has them."""
+    owners = {"ReadoutParameters": "members of all read-outs", "PoolPointerParameters": "members of a pool read-out"}
+    first = {"ReadoutParameters": next(name for name, readout in table.readouts.items() if readout.kind != "pool"),
+             "PoolPointerParameters": next(name for name, readout in table.readouts.items() if readout.kind == "pool")}  # fmt: skip
+    lists = {title: ["// clang-format off"] for title in owners.values()}
+    for name, place in model_members(table).items():
+        owner, _, member = place.partition("::")
+        flag = any(limit.parameter == name and limit.is_flag for limit in found.limits)
+        default = table.default(first[owner], name, int(table.parameters["NP"].default))
+        value = str(bool(default)).lower() if flag else str(default)
+        lists[owners[owner]] += [f"/// {name}: {table.parameters[name].help}", f"{'bool' if flag else 'int'} {member} = {value};"]
+    return {title: [*lines, "// clang-format on"] for title, lines in lists.items()}
+
+
+def parameter_table(table: Table, found: limits.Limits) -> str:
+    rows = "\n".join(f'    entry<&{member}>("{name}",\n        "{table.parameters[name].help}",\n'
+                     f'        "{limits.legal_text(found, table, name)}"),'
                      for name, member in model_members(table).items())  # fmt: skip
     return f"""// SPDX-License-Identifier: Apache-2.0
-// {WRITTEN}
+// {limits.WRITTEN}
 // clang-format off
 #include "dtof/core/parameter_entry.hpp"
 

@@ -150,7 +150,7 @@ std::unique_ptr<CLI::App> make_command_line(const Program& program, const std::s
     CLI::Option* json = app->get_option("--json");
     json->remove_needs(app->get_option("--version"));
     json->description(
-        "the tables as a JSON object on standard output; what is for people goes to standard error. With "
+        "the tables as a JSON object on standard output; text for people goes to standard error. With "
         "--version: the version as JSON");
   }
   check_numbers(*app);

@@ -125,7 +125,7 @@ void add_folder_results(CLI::App& app, const std::string& command_line, const st
   constexpr const char* kJson = "--json";
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     command->add_flag(kJson)->description(
-        "the tables as a JSON object on standard output; what is for people goes to standard error");
+        "the tables as a JSON object on standard output; text for people goes to standard error");
   }
   const auto result = std::make_shared<std::unique_ptr<FolderResult>>();
   const auto chosen = [&app] {

@@ -67,7 +67,7 @@ void ReadoutOptions::add_to(CLI::App& command) {
     } else {
       group->add_option_function<int>(
           option, [this, name = entry.name](const int& number) { values[name] = number; },
-          fmt::format("{}\n(default: {})", help, default_source(entry.name)));
+          fmt::format("{}\n({}; default: {})", help, entry.legal, default_source(entry.name)));
     }
   }
   group
@@ -76,7 +76,7 @@ void ReadoutOptions::add_to(CLI::App& command) {
       ->expected(2);
   group->add_flag(
       "--template", with_template,
-      "TEMPLATE of the pool read-outs: decode takes away what the sensor's cover glass and fog send back");
+      "TEMPLATE of the pool read-outs: decode subtracts the light of the sensor's cover glass and fog");
 }
 
 std::optional<int> ReadoutOptions::value(std::string_view parameter) const {

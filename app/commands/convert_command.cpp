@@ -110,10 +110,10 @@ void add_convert_command(CLI::App& app, const std::string& command_line) {
       "--confidence", options->conversion.confidence,
       ".ply, .pcd, .npz: the confidence of each pixel, a map or array file, or results (CSV)");
   command->add_option("--amplitude", options->conversion.amplitude,
-                      ".ply, .pcd, .npz: likewise the amplitude");
+                      ".ply, .pcd, .npz: the amplitude of each pixel, a map or array file");
   command
       ->add_option("--degrees", options->conversion.degrees_per_pixel,
-                   ".ply, .pcd: degrees that a pixel sees")
+                   ".ply, .pcd: field of view of a pixel in degrees")
       ->check(above_zero())
       ->capture_default_str();
   command->add_flag("--text", options->conversion.text, ".ply, .pcd: numbers as text");
@@ -143,7 +143,7 @@ void add_convert_command(CLI::App& app, const std::string& command_line) {
       ->add_option("--background", recording.resampling.background,
                    "TDC stream: background events to add per acquisition and T_int")
       ->capture_default_str();
-  command->add_option("--seed", recording.resampling.seed, "TDC stream: of the random numbers")
+  command->add_option("--seed", recording.resampling.seed, "TDC stream: seed of the random numbers")
       ->capture_default_str();
   JsonResult::add_to(*command, options->json);
   command->callback([options, command] {

@@ -361,7 +361,7 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
       ->add_option(
           "--settle", options->settle,
           "acquisitions at the frame's start that are dropped, as the register SETTLE does: the laser's\n"
-          "start, where a sensor file has one; read-outs see as many less")
+          "start, where a sensor file has one; read-outs receive as many fewer")
       ->capture_default_str();
   command->add_option("--max-frames", options->most_frames, "where --precision gives up")
       ->check(CLI::Range(4, 1'000'000))
@@ -376,7 +376,7 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   command->callback([options, command] {
     options->scene.check(*command);
     if (!options->precision_percent) {
-      refuse_without_effect(*command, "--max-frames", "it ends what --precision asks for");
+      refuse_without_effect(*command, "--max-frames", "it limits the frames of --precision");
     }
     options->sensor.refuse_options_without_effect(*command);
     // A recording must give the same results when it is replayed.

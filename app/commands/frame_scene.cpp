@@ -47,7 +47,7 @@ void FrameScene::add_to(CLI::App& command) {
   group->add_option("--near", parameters.near_m, "staircase, plane: near end in m")->capture_default_str();
   group->add_option("--far", parameters.far_m, "staircase, plane: far end in m")->capture_default_str();
   group->add_option("--steps", parameters.steps, "staircase: steps")->capture_default_str();
-  group->add_option("--reflectivity", reflectivity, "of every surface (default: the sensor's)")
+  group->add_option("--reflectivity", reflectivity, "reflectivity of every surface (default: the sensor's)")
       ->check(sensible_reflectivity());
 }
 

@@ -11,9 +11,8 @@
 namespace dtof {
 
 void JsonResult::add_to(CLI::App& command, bool& wanted) {
-  command.add_flag(
-      "--json", wanted,
-      "the result as a JSON object on standard output; what is for people goes to standard error");
+  command.add_flag("--json", wanted,
+                   "the result as a JSON object on standard output; text for people goes to standard error");
 }
 
 JsonResult::JsonResult(bool wanted, const std::string& command, const std::string& command_line) {

@@ -60,7 +60,7 @@ struct TruthComparison {
   double offset_m = 0.0;  ///< zero distance of the recording: --offset, or the median difference to truth
 };
 
-/// Whether the recording knows a true distance of a pixel of the region: not of one that saw nothing.
+/// True if the recording has a true distance for a pixel of the region that detected photons.
 bool has_truth(const Recording& recording, const Region& region) {
   if (recording.true_distance.empty()) {
     return false;
@@ -261,11 +261,11 @@ void check_recording_options(const CLI::App& command, const std::string& format)
     }
   } else {
     for (const char* option : {"--array-columns", "--array-rows"}) {
-      refuse_without_effect(command, option, "only a TDC stream (CSV) does not know its array");
+      refuse_without_effect(command, option, "only a TDC stream (CSV) lacks the size of its array");
     }
   }
   if (format == "csv" || format == "picoquant" || format == "photon-hdf5" || format == "tmf8829") {
-    refuse_without_effect(command, "--bin-width", "only arrays, TMF8820 and VL53L8CH do not know it");
+    refuse_without_effect(command, "--bin-width", "only arrays, TMF8820 and VL53L8CH lack it");
   }
   if (format != "mat" && format != "hdf5") {
     for (const char* option : {"--tick", "--variable"}) {
@@ -457,9 +457,9 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
                       "laser pulses per frame (default: CSV: the last one recorded, else 3333)");
   command
       ->add_option("--array-columns", options->recording.columns,
-                   "CSV: columns of the sensor (default: to the last one that detected something)")
+                   "CSV: columns of the sensor (default: up to the last detection)")
       ->check(CLI::Range(1, 65536));
-  command->add_option("--array-rows", options->recording.rows, "CSV: rows of the sensor, likewise")
+  command->add_option("--array-rows", options->recording.rows, "CSV: rows of the sensor (default: the same)")
       ->check(CLI::Range(1, 65536));
   command->add_option("--photons", options->photons,
                       "measured data: thin to this mean number of photons per pixel and frame");
@@ -482,7 +482,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
       "region's size; errors are then in the summary");
   add_truth_scale_option(*command, options->truth_scale);
   command->add_option("--offset", options->offset_mm,
-                      "mm that the recording calls zero, taken from every distance (default: each\n"
+                      "mm to subtract from every distance: the recording's zero (default: each\n"
                       "read-out's median difference to truth; 299.8 for a stream of preset thesis)");
   options->readout.add_to(*command);
   add_run_options(*command, options->run, true);

@@ -110,11 +110,11 @@ void add_sensor_command(CLI::App& app, const std::string& command_line) {
   command->add_option("sensor", options->name, "a preset of `dtof list`, or a sensor file (TOML)")
       ->capture_default_str();
   command->add_flag("--keys", options->keys, "the keys of a sensor file instead, with defaults and limits");
-  CLI::Option* rate =
-      command
-          ->add_option("--frame-rate", options->frame_rate,
-                       "frames/s: which read-outs' frames fit the clock, and what would, instead")
-          ->check(above_zero());
+  CLI::Option* rate = command
+                          ->add_option("--frame-rate", options->frame_rate,
+                                       "frames/s: says of each read-out whether its frame fits the clock, "
+                                       "and otherwise which change makes it fit")
+                          ->check(above_zero());
   command->add_option("--clock-mhz", options->clock_mhz, "the array's clock")
       ->check(above_zero())
       ->needs(rate)

@@ -41,7 +41,7 @@ std::string figures;
 std::string phases;
 std::string advice;
 
-void tell_progress(std::string_view step, std::size_t done, std::size_t total) {
+void report_progress(std::string_view step, std::size_t done, std::size_t total) {
   tell_worker(std::string(step).c_str(), static_cast<int>(done), static_cast<int>(total));
 }
 
@@ -85,10 +85,10 @@ const char* playground_preset_text(const char* name) {
   return attempt([&] { text = dtof::preset_text(name); }) ? text.c_str() : "";
 }
 /// Advice for that sensor, or for the request's preset (playground/advice.hpp). Reports progress by
-/// `tell_progress`.
+/// `report_progress`.
 bool playground_advise(const char* request) {
   return attempt(
-      [&] { advice = dtof::playground_advice(dtof::parse_advice_request(request), files, tell_progress); });
+      [&] { advice = dtof::playground_advice(dtof::parse_advice_request(request), files, report_progress); });
 }
 const char* playground_advice_text() { return advice.c_str(); }
 /// The depth map that scenes have from now on: its place, for metres row by row. Of 0 columns: none.

@@ -39,7 +39,7 @@ class PlaygroundPhotons {
   [[nodiscard]] virtual std::vector<PixelResult> read(const ReadoutParameters& readout,
                                                       std::vector<int> columns) const = 0;
   /// The next read of a column may draw its detections again.
-  virtual void forget(int column) = 0;
+  virtual void drop(int column) = 0;
   /// Distances, errors and figures of the read-out with this index in calibrate().
   [[nodiscard]] virtual FrameMaps judge(std::span<const PixelResult> results, std::size_t readout) const = 0;
 };

@@ -93,7 +93,7 @@ class RecordedPhotons final : public PlaygroundPhotons {
     return engine_.read(*source_, readout, {.columns = std::move(columns), .rows = {0, source_->rows()}})
         .results;
   }
-  void forget(int /*column*/) override {}
+  void drop(int /*column*/) override {}
   [[nodiscard]] FrameMaps judge(std::span<const PixelResult> results, std::size_t readout) const override {
     SensorModel without_pulse = sensor_;
     without_pulse.pulse_fwhm_s = 0.0;

@@ -84,7 +84,7 @@ class ScenePhotons final : public PlaygroundPhotons {
                                               std::vector<int> columns) const override {
     return pipeline_.read(readout, std::move(columns)).results;
   }
-  void forget(int column) override { pipeline_.forget_photons(column); }
+  void drop(int column) override { pipeline_.drop_photons(column); }
   [[nodiscard]] FrameMaps judge(std::span<const PixelResult> results, std::size_t readout) const override {
     return pipeline_.judge(results, tabled_.at(readout));
   }

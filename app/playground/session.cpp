@@ -44,8 +44,8 @@ void PlaygroundSession::read_column(int column) {
     read_[r] = column + 1;
   }
   // A page has little memory.
-  for (const int all_read = std::ranges::min(read_); forgotten_ < all_read; ++forgotten_) {
-    photons_->forget(forgotten_);
+  for (const int all_read = std::ranges::min(read_); dropped_ < all_read; ++dropped_) {
+    photons_->drop(dropped_);
   }
 }
 

@@ -98,7 +98,7 @@ class PlaygroundSession {
   std::vector<float> brightness_;
   std::vector<ReadoutParameters> readouts_;
   std::vector<int> read_;                          // of each read-out, the first column not yet read
-  int forgotten_ = 0;                              // the first column whose photons are kept
+  int dropped_ = 0;                                // the first column whose photons are kept
   std::vector<std::vector<PixelResult>> results_;  // of each read-out, row-major
 };
 

@@ -114,7 +114,7 @@ RangeConverter flat_table(const py::object& readout, const SensorModel& sensor, 
 RangeConverter fitted_table(const std::vector<double>& distances_m, const InputArray<double>& positions,
                             double code_step) {
   if (positions.ndim() != 2 || positions.shape(0) != static_cast<py::ssize_t>(distances_m.size())) {
-    throw InputError(fmt::format("positions: two axes are wanted, measurements of each of the {} distances",
+    throw InputError(fmt::format("positions: needs two axes, measurements of each of the {} distances",
                                  distances_m.size()));
   }
   std::vector<TargetRun> runs;

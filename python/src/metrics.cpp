@@ -28,8 +28,8 @@ py::tuple pair_of(const Interval& interval) { return py::make_tuple(interval.low
 /// The pixels of two maps that both know, as flat lists.
 std::pair<std::vector<double>, std::vector<double>> known_pairs(const Values& truth, const Values& measured) {
   if (truth.size() != measured.size()) {
-    throw InputError(
-        fmt::format("{} true and {} measured distances: as many are wanted", truth.size(), measured.size()));
+    throw InputError(fmt::format("{} true and {} measured distances: the numbers must be equal", truth.size(),
+                                 measured.size()));
   }
   std::pair<std::vector<double>, std::vector<double>> known;
   for (py::ssize_t i = 0; i < truth.size(); ++i) {

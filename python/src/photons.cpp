@@ -141,7 +141,7 @@ using WholeNumbers = InputArray<std::int64_t>;
 std::span<const std::int64_t> checked_numbers(const WholeNumbers& array, const char* name, py::ssize_t count,
                                               std::int64_t end) {
   if (array.ndim() != 1 || array.shape(0) != count) {
-    throw InputError(fmt::format("{}: one axis of {} numbers is wanted, as many as columns", name, count));
+    throw InputError(fmt::format("{}: needs one axis of {} numbers, one for each column", name, count));
   }
   const std::span numbers(array.data(), static_cast<std::size_t>(count));
   const auto wrong =

@@ -57,7 +57,7 @@ using TemplateChoice = std::variant<bool, std::shared_ptr<StreamSource>, std::ve
 PoolTemplate template_of_entries(const std::vector<int>& entries) {
   PoolTemplate made{};
   if (entries.size() != made.size()) {
-    throw InputError(fmt::format("template: {} entries are wanted, not {}", made.size(), entries.size()));
+    throw InputError(fmt::format("template: needs {} entries, not {}", made.size(), entries.size()));
   }
   for (std::size_t bin = 0; bin < made.size(); ++bin) {
     if (entries[bin] < 0 || entries[bin] > std::numeric_limits<std::uint8_t>::max()) {

@@ -34,8 +34,7 @@ struct MapSize {
 
 MapSize size_of(const Map& map, const char* name) {
   if (map.ndim() != 2) {
-    throw InputError(
-        fmt::format("{}: an array of two axes (rows, columns) is wanted, this one has {}", name, map.ndim()));
+    throw InputError(fmt::format("{}: needs an array of two axes (rows, columns), not {}", name, map.ndim()));
   }
   return {static_cast<int>(map.shape(1)), static_cast<int>(map.shape(0))};
 }

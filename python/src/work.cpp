@@ -24,8 +24,8 @@ struct WorkState {
   std::exception_ptr error;
 };
 
-void work_and_tell(WorkState& state, const std::atomic<bool>& stop,
-                   const std::function<void(const Progress::Observer&)>& work) {
+void work_and_notify(WorkState& state, const std::atomic<bool>& stop,
+                     const std::function<void(const Progress::Observer&)>& work) {
   const StopScope scope(&stop);
   std::exception_ptr error;
   try {
@@ -50,8 +50,8 @@ void run_work(const py::object& progress, const std::function<void(const Progres
   WorkState state;
   std::atomic<bool> stop = false;
   std::exception_ptr python_error;
-  std::size_t told = 0;
-  std::thread thread([&] { work_and_tell(state, stop, work); });
+  std::size_t reported = 0;
+  std::thread thread([&] { work_and_notify(state, stop, work); });
   for (bool finished = false; !finished;) {
     std::size_t done = 0;
     std::size_t total = 0;
@@ -69,8 +69,8 @@ void run_work(const py::object& progress, const std::function<void(const Progres
       if (PyErr_CheckSignals() != 0) {
         throw py::error_already_set();
       }
-      if (!progress.is_none() && done != told) {
-        told = done;
+      if (!progress.is_none() && done != reported) {
+        reported = done;
         progress(done, total);
       }
     } catch (...) {

@@ -12,7 +12,7 @@
 namespace dtof::python {
 
 /// Does `work` on a thread of its own while other threads of Python run. Every few hundredths of a second
-/// `progress` (a callable of two whole numbers, or None) is told what the work's observer was told, and
+/// `progress` (a callable of two whole numbers, or None) receives the figures of the work's observer, and
 /// Python's signals are looked after: an exception of either, such as KeyboardInterrupt, stops the work and
 /// is thrown.
 void run_work(const pybind11::object& progress, const std::function<void(const Progress::Observer&)>& work);

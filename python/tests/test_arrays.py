@@ -118,7 +118,7 @@ class ArrayTest(unittest.TestCase):
             ({"column": [0, 2]}, r"column\[1\]: 2 is outside 0 to 1"), ({"row": [0, -1]}, r"row\[1\]: -1 is outside"),
             ({"acquisition": [6, 5]}, r"acquisition\[0\]: 6 is outside 0 to 5"),
             ({"timestamp": [10, 1024]}, r"timestamp\[1\]: 1024 is outside 0 to 1023"),
-            ({"timestamp": [10]}, "one axis of 2 numbers is wanted"),
+            ({"timestamp": [10]}, "needs one axis of 2 numbers"),
             ({"rows": 0}, "rows: 0 is not at least 1"), ({"np": 17}, "np: 17 is outside 1 to 16")]
         for change, sentence in cases:
             with self.subTest(sentence), self.assertRaisesRegex(ValueError, sentence):

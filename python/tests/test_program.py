@@ -85,12 +85,12 @@ class ProgramTest(unittest.TestCase):
         for condition, changed, options in cases:
             with self.subTest(condition, options=options):
                 sensor = dtof.Sensor(condition).replace(**changed)
-                told = [dtof.Readout(name, sensor, template=True) for name in ("poolpointer", "poolpointer-lean")]
+                compensated = [dtof.Readout(name, sensor, template=True) for name in ("poolpointer", "poolpointer-lean")]
                 scene = dtof.Scene("room", sensor, columns=COLUMNS, rows=ROWS)
-                frame = dtof.frame(scene, sensor, told)
+                frame = dtof.frame(scene, sensor, compensated)
                 self.compare(frame, "--sensor", condition, "--template", *size, *options)
-                untold = dtof.frame(scene, sensor, list(frame), table="none")
-                self.assertFalse(np.array_equal(untold["poolpointer"].results.code, frame["poolpointer"].results.code))
+                uncompensated = dtof.frame(scene, sensor, list(frame), table="none")
+                self.assertFalse(np.array_equal(uncompensated["poolpointer"].results.code, frame["poolpointer"].results.code))
 
     def test_the_timestamps_are_the_readouts(self) -> None:
         frame = dtof.frame(dtof.Scene("room", columns=6, rows=ROWS), "thesis", dtof.Readout("sifh", np=9, slots=1))

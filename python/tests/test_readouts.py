@@ -54,23 +54,23 @@ class ReadoutTest(unittest.TestCase):
 
     def test_template(self) -> None:
         sensor = dtof.Sensor("thesis+glass").replace(acquisitions=1000)
-        told = dtof.Readout("poolpointer", sensor, template=True)
-        self.assertEqual(len(told.template), 32)
-        self.assertGreater(max(told.template), 0)
+        compensated = dtof.Readout("poolpointer", sensor, template=True)
+        self.assertEqual(len(compensated.template), 32)
+        self.assertGreater(max(compensated.template), 0)
         self.assertEqual(dtof.Readout("poolpointer", sensor).template, [0] * 32)
-        self.assertEqual(dtof.Readout("poolpointer", sensor, template=told.template), told)
+        self.assertEqual(dtof.Readout("poolpointer", sensor, template=compensated.template), compensated)
         # A dark frame whose only light is the glass's: the entries are those of the sensor, but for the noise of other photons.
         dark = dtof.photons(dtof.Scene.from_depth(np.full((160, 8), 5.0), reflectivity=1e-9), sensor, klux=0.0, seed=5)
         own = dtof.Readout("poolpointer", sensor, template=dark)
         self.assertNotEqual(own.template, [0] * 32)
-        np.testing.assert_allclose(own.template, told.template, rtol=0.1, atol=4)
+        np.testing.assert_allclose(own.template, compensated.template, rtol=0.1, atol=4)
 
     def test_templates_that_are_refused(self) -> None:
         dark = dtof.event_list([], [], [], [], columns=2, rows=1, acquisitions=100)
         cases: list[tuple[str, str, bool | dtof.Photons | list[int], str]] = [
                 ("sifh", "thesis+fog", True, "template has no effect: sifh has no TEMPLATE"),
                 ("poolpointer", "thesis", True, "template has no effect: the sensor has neither cover glass nor fog"),
-                ("poolpointer", "thesis", [1] * 31, "template: 32 entries are wanted, not 31"),
+                ("poolpointer", "thesis", [1] * 31, "template: needs 32 entries, not 31"),
                 ("poolpointer", "thesis", [256] * 32, "template: entries are 0 to 255, not 256"),
                 ("poolpointer", "thesis", dark, "a template needs a column of at least two rows")]
         for name, sensor, template, sentence in cases:
@@ -99,7 +99,7 @@ class ReadoutTest(unittest.TestCase):
         distances = np.linspace(1.0, 4.0, 7)
         table = dtof.LookupTable.fit([float(distance) for distance in distances], np.outer(distances, np.full(9, 100.0)), 0.0)
         np.testing.assert_allclose(table.distance([150.0, 333.0]), [1.5, 3.33])
-        with self.assertRaisesRegex(ValueError, "two axes are wanted"):
+        with self.assertRaisesRegex(ValueError, "needs two axes"):
             dtof.LookupTable.fit([1.0, 2.0], np.zeros(2))
 
     def test_depth_is_equation_3_11(self) -> None:

@@ -88,12 +88,12 @@ class RtlTest(unittest.TestCase):
         stream = Path(self.folder.name) / "stream.csv"
         self.photons.write_csv(stream)
         recorded = dtof.read_recording(stream, np=8).photons
-        told: list[tuple[int, int]] = []
+        reported: list[tuple[int, int]] = []
         rtl = dtof.read_out(recorded, readout("sifh"), engine="rtl", columns=[0, 2], rows=(1, 3),
-                            progress=lambda done, total: told.append((done, total)))
+                            progress=lambda done, total: reported.append((done, total)))
         self.assert_same(rtl, dtof.read_out(self.photons, readout("sifh"), columns=[0, 2], rows=(1, 3)))
         self.assertEqual(rtl.code.shape, (2, 2))
-        self.assertEqual(told[-1], (2, 2))
+        self.assertEqual(reported[-1], (2, 2))
 
     def test_frames_and_arrays_are_the_programs(self) -> None:
         """`dtof frame --engine rtl` takes the arrays that the module has built, and writes the same results."""

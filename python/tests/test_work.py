@@ -28,16 +28,16 @@ print(dtof.frame(dtof.Scene("flat", columns=2, rows=2), readouts=["sifh"])["sifh
 
 class WorkTest(unittest.TestCase):
     def test_progress_grows_and_ends_at_the_whole(self) -> None:
-        told: list[tuple[int, int]] = []
-        dtof.frame(SCENE, SENSOR, ["sifh", "poolpointer"], table="none", progress=lambda done, total: told.append((done, total)))
-        self.assertGreater(len(told), 3)
-        self.assertEqual(told, sorted(set(told)))
-        self.assertEqual(told[-1], (400, 400))
+        reported: list[tuple[int, int]] = []
+        dtof.frame(SCENE, SENSOR, ["sifh", "poolpointer"], table="none", progress=lambda done, total: reported.append((done, total)))
+        self.assertGreater(len(reported), 3)
+        self.assertEqual(reported, sorted(set(reported)))
+        self.assertEqual(reported[-1], (400, 400))
 
     def test_progress_of_a_read_out(self) -> None:
-        told: list[int] = []
-        dtof.read_out(dtof.photons(SCENE, SENSOR), "sifh", progress=lambda done, total: told.append(done))
-        self.assertEqual(told[-1], 200)
+        reported: list[int] = []
+        dtof.read_out(dtof.photons(SCENE, SENSOR), "sifh", progress=lambda done, total: reported.append(done))
+        self.assertEqual(reported[-1], 200)
 
     def test_an_exception_of_the_callback_ends_the_work(self) -> None:
         class Enough(Exception):

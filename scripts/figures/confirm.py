@@ -53,9 +53,9 @@ def small_run(root: Path, report: Report) -> str | None:
     if report.confirm:
         folder.mkdir(parents=True, exist_ok=True)
         with (folder / f"{report.name}.log").open("w", encoding="utf-8") as log:
-            told = subprocess.run(report.confirm, shell=True, cwd=root, stdout=subprocess.PIPE, stderr=log)
+            finished = subprocess.run(report.confirm, shell=True, cwd=root, stdout=subprocess.PIPE, stderr=log)
         rest = not_covered(report, SourceTree(root))
-        return hashlib.sha256(told.stdout + rest.encode()).hexdigest()[:16] if told.returncode == 0 and told.stdout else None
+        return hashlib.sha256(finished.stdout + rest.encode()).hexdigest()[:16] if finished.returncode == 0 and finished.stdout else None
     for name in report.written:
         (folder / name).unlink(missing_ok=True)
     folder.mkdir(parents=True, exist_ok=True)

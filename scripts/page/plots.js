@@ -51,7 +51,7 @@
   }
 
   /** The sentences of a row: its figure, where that comes from, and the command. */
-  function told(plot, row) {
+  function describeRow(plot, row) {
     const index = plot.measures.indexOf(settings(plot).measure);
     const [value, low, high] = row.values[index];
     const interval = low === null ? "" : ` [${number(low)}, ${number(high)}]`;
@@ -73,7 +73,7 @@
     if (box.hidden) {
       return;
     }
-    box.replaceChildren(...tooltip.dataPoints.slice(0, 1).flatMap((point) => told(plot, point.raw.row)));
+    box.replaceChildren(...tooltip.dataPoints.slice(0, 1).flatMap((point) => describeRow(plot, point.raw.row)));
     const width = chart.canvas.clientWidth;
     box.style.maxWidth = `${Math.min(320, width)}px`;
     box.style.left = `${Math.max(0, Math.min(tooltip.caretX + 12, width - box.offsetWidth))}px`;

@@ -143,7 +143,7 @@ PLOTS: tuple[tuple[Plot, Callable[[Path, Titles], Iterator[Row]]], ...] = (
           "pareto", "pareto.csv", "points", "area of 200 x 160 pixels, mm2", (ABOVE_3, RMSE), "pareto.svg"), area),
     (Plot("light", "Errors over light", "Each read-out on one scene, from dusk to bright sun.",
           "scenes", "scenes.csv", "lines", "klux", (ABOVE_3, ABOVE_10, RMSE)), scenes),
-    (Plot("hostile", "Hostile conditions", "Glass, fog, other lasers, motion and skew; bars are intervals at 95 %. \"told\": the user has "
+    (Plot("hostile", "Hostile conditions", "Glass, fog, other lasers, motion and skew; bars are intervals at 95 %. \"told\" in a label: the user has "
           "set the read-out's parameters for the sensor and its surroundings.",
           "hostile_scenes", "data/hostile_scenes.csv.gz", "rows", "", (ABOVE_3, ABOVE_10)), hostile),
     (Plot("acquisitions", "Errors over acquisitions", "Does a longer frame, or more light, make a read-out worse? The signal is a "

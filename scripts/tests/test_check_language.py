@@ -27,6 +27,10 @@ class Language(unittest.TestCase):
             self.assertIn(f"'{verb}' in the RTL", check_language.problem("hdl/pool/a.sv", line))
             self.assertEqual(check_language.problem("app/a.cpp", line), "")
         self.assertEqual(check_language.problem("hdl/pool/a.sv", "logic told_read;  // a command"), "")
+        for line in ("  const auto told = message(row);", "if (hears_other_columns(readout)) {", "add(told.front());"):
+            self.assertIn("the name '", check_language.problem("models/dtof/a.cpp", line))
+        for line in ('stored("told-fog");', "// a pulse cannot be told apart"):
+            self.assertEqual(check_language.problem("models/dtof/a.cpp", line), "")
         self.assertIn("'hear' on a page", check_language.problem("docs/a.md", "Columns hear each other."))
 
     def test_what_there_is_not(self) -> None:

@@ -70,7 +70,7 @@ class Documents(unittest.TestCase):
         self.write("CHANGELOG.md", "# Changes\n\n    [x](none.txt)\n\n`[x](none.txt)`\n\n```\n[x](none.txt)\n```\n")
         self.assertEqual(self.found(), [])
 
-    def test_a_page_that_the_index_forgets(self) -> None:
+    def test_a_page_that_the_index_lacks(self) -> None:
         self.block("top", "array")
         self.write("docs/user/new.md", "# New\n")
         self.assertEqual(self.found(), ["docs/README.md: docs/user/new.md is not listed"])

@@ -25,7 +25,7 @@ class Fpga(unittest.TestCase):
             with self.assertRaisesRegex(FlowError, "how fast"):
                 fpga.result(report, icetime)
 
-    def test_what_is_wrong_is_told(self):
+    def test_what_is_wrong_is_reported(self):
         self.assertEqual(fpga.problems(FOUND, CELLS, 30), [])
         self.assertEqual(fpga.problems(FOUND, CELLS, 31), ["30 block RAMs for 31 memories"])
         self.assertEqual(fpga.problems(FOUND, CELLS, 0), ["the simulation names no memories"])

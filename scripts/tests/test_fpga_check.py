@@ -36,7 +36,7 @@ class FpgaCheck(unittest.TestCase):
                     counts = fpga_check.counted(fpga_check.FAMILIES[target], f"   Number of cells:  7\n   {name}    7\n")
                     self.assertEqual(counts, Counts(7, 0, 0, 0))
 
-    def test_a_memory_that_is_none_is_told(self):
+    def test_a_memory_that_is_none_is_reported(self):
         memories = ["36 words x 20 bits", "16 words x 14 bits"]
         self.assertEqual(fpga_check.problem(memories, Counts(2, 9, 9, 0)), "")
         self.assertEqual(fpga_check.problem(memories, Counts(1, 9, 9, 0)), "1 block RAMs for 2 memories")

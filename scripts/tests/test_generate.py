@@ -4,11 +4,13 @@ import unittest
 from pathlib import Path
 
 import generate
+import limits
 import readouts_cpp
 from dtof_synth import readouts
 from dtof_synth.errors import FlowError
 
 ROOT = Path(__file__).resolve().parents[2]
+LIMITS = limits.load()
 FIRST_PHOTON = (ROOT / "docs/user/adding_a_readout/readouts.toml").read_text(encoding="utf-8")
 TEXT = readouts.PATH.read_text(encoding="utf-8").replace(FIRST_PHOTON, "")  # make test-adding adds it
 
@@ -43,11 +45,11 @@ class Descriptions(unittest.TestCase):
         self.assertIn("thesis/dtof_first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
         self.assertIn("case Readout::kFirstPhoton:\n      return make_first_photon(parameters);",
                       readouts_cpp.model_table(table))
-        self.assertIn("partitioned_histogram coarse_histogram pool_pointer first_photon)", generate.cmake(table))
+        self.assertIn("partitioned_histogram coarse_histogram pool_pointer first_photon)", generate.cmake(table, LIMITS))
         self.assertIn("kFirstPhoton = 11,", readouts_cpp.cpp_header(table))
         self.assertIn('"first photon"', readouts_cpp.cpp_source(table))
-        self.assertIn("set(DTOF_NUMBER_firstphoton 9)", generate.cmake(table))
-        self.assertIn("9 first photon |", generate.defaults((ROOT / generate.CONFIGURATION).read_text(), table))
+        self.assertIn("set(DTOF_NUMBER_firstphoton 9)", generate.cmake(table, LIMITS))
+        self.assertIn("9 first photon |", generate.defaults((ROOT / generate.CONFIGURATION).read_text(), table, LIMITS))
 
     def test_a_read_out_without_rtl_is_in_the_lists_of_models_alone(self):
         model_only = "\n".join(line for line in FIRST_PHOTON.splitlines() if not line.startswith(("number", "column")))
@@ -60,21 +62,21 @@ class Descriptions(unittest.TestCase):
         self.assertNotIn("kFirstPhoton", hardware)
         for text in (generate.systemverilog(table), generate.columns(table)):
             self.assertNotIn("FIRSTPHOTON", text)
-        self.assertNotIn("DTOF_TOP_firstphoton", generate.cmake(table))
-        self.assertNotIn("first photon", generate.defaults((ROOT / generate.CONFIGURATION).read_text(), table))
+        self.assertNotIn("DTOF_TOP_firstphoton", generate.cmake(table, LIMITS))
+        self.assertNotIn("first photon", generate.defaults((ROOT / generate.CONFIGURATION).read_text(), table, LIMITS))
 
     def test_a_changed_default_is_in_every_list(self):
         table = readouts.parse(TEXT.replace('defaults.NB = "min(NP, 6)"', 'defaults.NB = "min(NP, 7)"'))
         self.assertIn("return std::min(np, 7);", readouts_cpp.cpp_source(table))
-        self.assertIn("set(DTOF_DEFAULT_NB_pifh 3 4 5 6 7 7", generate.cmake(table))
+        self.assertIn("set(DTOF_DEFAULT_NB_pifh 3 4 5 6 7 7", generate.cmake(table, LIMITS))
 
     def test_a_new_parameter_is_in_the_lists_of_c_plus_plus(self):
         new = 'SPREAD = { default = 3, help = "bins of the spread" }\nSPREAD_PORTS = { default = 1, help = "ports" }\nTIME_GATE = {'
         text = TEXT.replace("TIME_GATE = {", new, 1).replace('"WINDOW_CENTRED", "POINTER_PORTS"', '"WINDOW_CENTRED", "SPREAD", "SPREAD_PORTS", "POINTER_PORTS"')
         text = text.replace('"COUNT_WIDTH", "WINDOW_CENTRED"]', '"COUNT_WIDTH", "WINDOW_CENTRED", "SPREAD"]')
         table = readouts.parse(text)
-        self.assertIn('entry<&ReadoutParameters::spread>("SPREAD",\n        "bins of the spread"),', readouts_cpp.parameter_table(table))
-        self.assertNotIn("spread_ports", readouts_cpp.parameter_table(table))  # changes no result
+        self.assertIn('entry<&ReadoutParameters::spread>("SPREAD",\n        "bins of the spread",\n        ""),', readouts_cpp.parameter_table(table, LIMITS))
+        self.assertNotIn("spread_ports", readouts_cpp.parameter_table(table, LIMITS))  # changes no result
         self.assertIn('{"SPREAD", true, false},\n    {"SPREAD_PORTS", true, false},', readouts_cpp.rtl_parameters(table))
 
     def test_members_of_the_models(self):

@@ -13,7 +13,7 @@ ROW = re.compile(r"^\| (\d+) \| .+ \| (.+) \|$", re.MULTILINE)
 
 
 def rows(text: str) -> list[tuple[int, str]]:
-    """(number, what notices)."""
+    """(number, what reports a broken obligation)."""
     return [(int(number), notices) for number, notices in ROW.findall(text.split("## What an integrator owes\n", 1)[1])]
 
 

@@ -290,7 +290,7 @@ class InTheBrowser(Shown):
         self.choose("light", "measure", plots.ABOVE_10)
         self.assertIn("flat 1 m", self.point_at("light", "ezPointer"))
         self.assertIn(plots.ABOVE_10, self.point_at("light", "ezPointer"))
-        # On the logarithmic axis a figure of 0 stands at the low end, and is told as 0.
+        # On the logarithmic axis a figure of 0 stands at the low end, and its text says 0.
         values = self.browser.evaluate("charts.light.data.datasets.flatMap(s => s.data.map(p => [p.y, p.row.values[1][0]]))")
         self.assertTrue(any(value == 0 for _, value in values))
         self.assertTrue(all(y > 0 for y, _ in values))

@@ -59,7 +59,7 @@ class TimingDiagrams(unittest.TestCase):
                                             {"name": "low", "wave": "x=.", "data": ["6"]},
                                             {"name": "high", "wave": "x=x", "data": ["1"]}])  # fmt: skip
 
-    def test_what_the_bench_does_not_have_is_told(self):
+    def test_what_the_bench_does_not_have_is_reported(self):
         wave = timing_diagrams.waveform(VCD)
         with self.assertRaisesRegex(FlowError, "no diagram 2"):
             timing_diagrams.wavedrom(Diagram(2, "x", "", ()), wave)

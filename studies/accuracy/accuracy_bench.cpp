@@ -49,7 +49,7 @@ RunIdentity run_identity(std::uint64_t seed, Use use, std::size_t point, std::si
   return {seed, static_cast<std::uint32_t>((static_cast<std::size_t>(use) << 31U) | (batch << 14U) | point)};
 }
 
-bool hears_other_columns(const ReadoutParameters& readout) { return readout.columns_together() > 1; }
+bool uses_other_columns(const ReadoutParameters& readout) { return readout.columns_together() > 1; }
 
 /// Columns of a pixel's engine: the pixel's own pair and one pair on either side, on which its result
 /// depends. A sensor's engines have more columns, but the photons of all these columns are drawn for each
@@ -96,7 +96,7 @@ void StudySettings::validate() const {
       throw InputError(fmt::format("accuracy: distances must be finite and above 0, not {} m", distance));
     }
   }
-  if (run.hardware() && std::ranges::any_of(readouts, hears_other_columns)) {
+  if (run.hardware() && std::ranges::any_of(readouts, uses_other_columns)) {
     throw InputError(
         fmt::format("accuracy: --engine {}: an engine of poolPointer is one pixel's here, so that only its "
                     "model reads it",
@@ -177,7 +177,7 @@ AccuracyBench::Batch AccuracyBench::measure(double distance_m, int frames, const
       }
       const bool pool = estimator.readout && is_pool_readout(estimator.readout->readout);
       const std::vector<Measurement> read =
-          pool && hears_other_columns(*estimator.readout)
+          pool && uses_other_columns(*estimator.readout)
               ? read_engine(*source_of_engines, engines, static_cast<int>(column), *estimator.readout)
               : read_model(pool ? whole : counted, estimator, distance_m);
       const auto begin = read.begin() + (pool ? pixels.first_row : 0);

@@ -388,9 +388,9 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command
       ->add_option("--calibration-seed", options->calibration_seed,
-                   "names the calibration run that the look-up table comes from; --seed does not change it")
+                   "calibration run of the look-up table; --seed does not change it")
       ->capture_default_str();
-  command->add_option("--calibration-frames", options->calibration_frames, "its frames per distance")
+  command->add_option("--calibration-frames", options->calibration_frames, "frames per distance of this run")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
   command->add_option("--max-frames", options->most_frames, "where --precision gives up")
@@ -402,14 +402,14 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
           "reject measurements of low confidence, so that of the calibration's accepted ones at most "
           "this many per cent are more than 10 % off")
       ->check(CLI::Range(0.0, 100.0));
-  command->add_option("--reflectivity", options->reflectivity, "of the target (default: the sensor's)")
+  command->add_option("--reflectivity", options->reflectivity, "the target's (default: the sensor's)")
       ->check(sensible_reflectivity());
   auto* map = command->add_option_group("map");
   map->add_option(
       "--depth", options->maps.depth,
       "instead of a sweep: errors by distance band over your own depth map (PNG of 8 or 16 bits,\n"
       "PFM or NPY), resampled to the sensor's pixels by nearest neighbour");
-  map->add_option("--reflectivity-map", options->maps.reflectivity, "its reflectivity: PNG, PFM or NPY");
+  map->add_option("--reflectivity-map", options->maps.reflectivity, "PNG, PFM or NPY of --depth");
   options->map_scales.add_to(*map);
   options->sensor.add_sensor_to(*command);
   options->readout.add_to(*command);
@@ -417,7 +417,7 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->callback([options, command] {
     if (!options->precision_percent) {
-      refuse_without_effect(*command, "--max-frames", "it ends what --precision asks for");
+      refuse_without_effect(*command, "--max-frames", "it limits the frames of --precision");
       refuse_without_effect(*command, "--rare-outliers", "it limits what --precision waits for");
     }
     options->sensor.refuse_options_without_effect(*command);

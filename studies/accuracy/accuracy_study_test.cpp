@@ -121,7 +121,7 @@ ErrorEstimates errors_with(double half_width, std::uint64_t far_from_others) {
   return {estimate, estimate, estimate, estimate, estimate, far_from_others};
 }
 
-TEST(PrecisionReached, WantsManyOutliersOrSurelyRareOnes) {
+TEST(PrecisionReached, NeedsManyOutliersOrSurelyRareOnes) {
   // None in 3687 frames: 1 - 0.025^(1/3687) = 0.1 % at 95 %.
   EXPECT_TRUE(precision_reached(errors_with(0.049, 0), errors_with(0.049, 0), 3688, 0.05, 1e-3));
   EXPECT_FALSE(precision_reached(errors_with(0.049, 0), errors_with(0.049, 0), 3600, 0.05, 1e-3));

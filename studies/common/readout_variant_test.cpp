@@ -56,7 +56,7 @@ TEST(ReadoutVariant, CellsFollowThePulse) {
   EXPECT_EQ(parse_variant("poolpointer-lean:SMOOTH=1").pool.cell_shift, 9);
 }
 
-TEST(ReadoutVariant, RefusesWhatItDoesNotKnow) {
+TEST(ReadoutVariant, RefusesUnknownNames) {
   const auto parse = [](const std::string& text) { return [text] { (void)parse_variant(text); }; };
   for (const char* text : {"hispointer", "hispointer:", "hispointer:COUNT_WIDTH", "hispointer:COUNT_WIDTH=x",
                            "hispointer:COUNT_WIDTH=8,FRACTION_BITS", "hispointer:COUNT_WIDTH=8,"}) {

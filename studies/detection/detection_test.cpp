@@ -29,7 +29,7 @@ DetectionSettings small_detection_study() {
   return settings;
 }
 
-TEST(Detection, PoolPointerTellsAWallFromASkyWithOneThreshold) {
+TEST(Detection, PoolPointerSeparatesAWallFromASkyWithOneThreshold) {
   const std::vector<ReadoutDetection> study = run_detection(small_detection_study());
   ASSERT_EQ(study.size(), 2U);
   for (const ReadoutDetection& readout : study) {

@@ -56,7 +56,7 @@ ColumnRange columns_of(SramKind kind, const std::string& path, const RtlConfigur
 
 }  // namespace
 
-ColumnRange heard_by(ColumnRange columns, int together, int sram_num) {
+ColumnRange affected_columns(ColumnRange columns, int together, int sram_num) {
   const int first = columns.first / together * together;
   const int groups = (columns.first + columns.count - first + together - 1) / together;
   return {first, std::min(groups * together, sram_num - first)};

@@ -25,7 +25,7 @@ struct ColumnRange {
 
 /// Columns whose results may change with those of `columns`. In a pool read-out these are all columns of the
 /// affected engines. `together`: ReadoutParameters::columns_together(); `sram_num`: columns of the array.
-ColumnRange heard_by(ColumnRange columns, int together, int sram_num);
+ColumnRange affected_columns(ColumnRange columns, int together, int sram_num);
 
 /// An SRAM and the columns that use it.
 struct ArraySram {

@@ -98,7 +98,7 @@ class FaultPlan {
     std::vector<FaultySram> found;
     for (std::size_t i = 0; i < srams_.size(); ++i) {
       const ColumnRange reach =
-          heard_by(srams_[i].columns, subject_.parameters().columns_together(), kFaultColumns);
+          affected_columns(srams_[i].columns, subject_.parameters().columns_together(), kFaultColumns);
       const bool is_free =
           std::ranges::none_of(found, [&](const FaultySram& other) { return overlap(other.reach, reach); });
       if (has_fault(static_cast<int>(i), frame_) && is_free) {
@@ -316,14 +316,14 @@ void plan_cases(const FaultSubject& subject, const FaultStudyOptions& options,
                 std::vector<PlannedCase>& cases) {
   const Readout readout = subject.parameters().readout;
   const std::vector<ArraySram> srams = array_srams(RtlReadout(subject.configuration()));
-  const int heard_apart = kFaultColumns / subject.parameters().columns_together();  // groups of columns
+  const int engines_apart = kFaultColumns / subject.parameters().columns_together();
   // Frames for `faults` faults on two thirds of `places` in each.
   const auto add = [&](const FaultCase& fault, int faults, int places) {
     cases.push_back({&subject, fault, std::max((3 * faults + 2 * places - 1) / (2 * places), 1)});
   };
   for (const SramKind kind : sram_kinds(srams)) {
     const auto places =
-        std::min(static_cast<int>(std::ranges::count(srams, kind, &ArraySram::kind)), heard_apart);
+        std::min(static_cast<int>(std::ranges::count(srams, kind, &ArraySram::kind)), engines_apart);
     const bool scratch = kind == SramKind::kEngineScratch;
     const int flips = scratch ? options.flips / kFlipsPerScratchFlip : options.flips;
     add({readout, FaultKind::kFlippedBit, kind, std::nullopt}, flips, places);

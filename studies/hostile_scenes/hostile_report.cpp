@@ -57,16 +57,16 @@ std::string error_table(const HostileSettings& settings, const HostileScenes& st
   return table.markdown();
 }
 
-std::string told_table(const HostileSettings& settings, const HostileScenes& study, double klux) {
+std::string compensated_table(const HostileSettings& settings, const HostileScenes& study, double klux) {
   std::vector<std::string> texts = {"condition"};
-  for (const std::string& name : told_estimators(settings)) {
+  for (const std::string& name : compensated_estimators(settings)) {
     texts.push_back(hostile_title(name));
   }
   Table table(texts);
-  for (const std::string& condition : told_conditions(settings)) {
-    const HostileReadouts& readouts = study.told.at({condition, klux});
+  for (const std::string& condition : compensated_conditions(settings)) {
+    const HostileReadouts& readouts = study.compensated.at({condition, klux});
     std::vector<std::string> row = {condition};
-    for (const std::string& name : told_estimators(settings)) {
+    for (const std::string& name : compensated_estimators(settings)) {
       row.push_back(fmt::format("{} / {}", percent_text(share_above(readouts.at(name), 3).value),
                                 percent_text(share_above(readouts.at(name), 10).value)));
     }
@@ -75,8 +75,8 @@ std::string told_table(const HostileSettings& settings, const HostileScenes& stu
   return table.markdown();
 }
 
-std::string told_section(const HostileSettings& settings, const HostileScenes& study) {
-  if (told_conditions(settings).empty()) {
+std::string compensated_section(const HostileSettings& settings, const HostileScenes& study) {
+  if (compensated_conditions(settings).empty()) {
     return "";
   }
   std::string text =
@@ -92,7 +92,7 @@ std::string told_section(const HostileSettings& settings, const HostileScenes& s
       "takes no longer; this holds for all read-outs. *Motion*: each read-out is judged at its own instant "
       "(below). Pixels with a target above 3 % / above 10 %, in %:\n";
   for (const double klux : settings.klux) {
-    text += fmt::format("\n{:g} klux:\n\n{}", klux, told_table(settings, study, klux));
+    text += fmt::format("\n{:g} klux:\n\n{}", klux, compensated_table(settings, study, klux));
   }
   return text;
 }
@@ -118,7 +118,7 @@ std::string motion_table(const HostileSettings& settings, const HostileScenes& s
     for (const std::optional<double>& instant : own.instants.at(names[e])) {
       row.push_back(instant_text(instant));
     }
-    for (const HostileReadouts* readouts : {&study.cells.at(cell), &study.told.at(cell)}) {
+    for (const HostileReadouts* readouts : {&study.cells.at(cell), &study.compensated.at(cell)}) {
       const std::vector<HostileCounts>& seeds = readouts->at(names[e]);
       row.push_back(fmt::format("{:.0f}", 1e3 * mean_error(seeds)));
       row.push_back(fmt::format("{} / {}", percent_text(share_above(seeds, 3).value),
@@ -171,14 +171,14 @@ std::string alarm_table(const HostileSettings& settings, const HostileScenes& st
   return table.markdown();
 }
 
-/// "glass 0.15 / 3.1" of each told condition, above 3 %, over the lights.
-std::string told_sentence(const HostileSettings& settings, const HostileScenes& study,
-                          const std::string& name) {
+/// "glass 0.15 / 3.1" of each compensated condition, above 3 %, over the lights.
+std::string compensated_sentence(const HostileSettings& settings, const HostileScenes& study,
+                                 const std::string& name) {
   std::vector<std::string> texts;
-  for (const std::string& condition : told_conditions(settings)) {
+  for (const std::string& condition : compensated_conditions(settings)) {
     std::vector<std::string> shares;
     for (const double klux : settings.klux) {
-      shares.push_back(percent_text(share_above(study.told.at({condition, klux}).at(name), 3).value));
+      shares.push_back(percent_text(share_above(study.compensated.at({condition, klux}).at(name), 3).value));
     }
     texts.push_back(fmt::format("{} {}", condition, fmt::join(shares, " / ")));
   }
@@ -222,11 +222,12 @@ std::string scene_names(const HostileSettings& settings) {
 }  // namespace
 
 std::vector<std::string> behind_coarse_histogram(const HostileSettings& settings, const HostileScenes& study,
-                                                 const std::string& estimator, bool told) {
+                                                 const std::string& estimator, bool compensated) {
   std::map<std::string, std::vector<std::string>> lights;
-  for (const auto& [cell, untold] : study.cells) {
-    const auto found = study.told.find(cell);
-    const HostileReadouts& readouts = told && found != study.told.end() ? found->second : untold;
+  for (const auto& [cell, uncompensated] : study.cells) {
+    const auto found = study.compensated.find(cell);
+    const HostileReadouts& readouts =
+        compensated && found != study.compensated.end() ? found->second : uncompensated;
     const auto coarse = readouts.find(std::string(readout_name(Readout::kCoarseHistogram)));
     if (coarse == readouts.end()) {
       return {};
@@ -271,13 +272,13 @@ std::string hostile_report(const HostileSettings& settings, const HostileScenes&
           "under: {}.\n",
           hostile_title(name),
           list_or(behind_coarse_histogram(settings, study, name, false), "no condition"));
-      if (!told_conditions(settings).empty()) {
+      if (!compensated_conditions(settings).empty()) {
         report += fmt::format(
             "* With these settings for both, {} has more than twice the coarse histogram's errors under: {}. "
             "Its pixels above 3 %, in % at {:g} klux: {}.\n",
             hostile_title(name),
             list_or(behind_coarse_histogram(settings, study, name, true), "no condition"),
-            fmt::join(settings.klux, " / "), told_sentence(settings, study, name));
+            fmt::join(settings.klux, " / "), compensated_sentence(settings, study, name));
       }
     }
   }
@@ -292,7 +293,7 @@ std::string hostile_report(const HostileSettings& settings, const HostileScenes&
         fmt::format("\n## Errors at {:g} klux\n\nPixels with a target above 3 % / above 10 %, in %:\n\n{}",
                     klux, error_table(settings, study, klux));
   }
-  report += told_section(settings, study) + motion_section(settings, study);
+  report += compensated_section(settings, study) + motion_section(settings, study);
   for (const double klux : settings.klux) {
     report += fmt::format(
         "\n## False alarms and detection at {:g} klux\n\n"
@@ -370,9 +371,9 @@ Table hostile_csv(const HostileSettings& settings, const HostileScenes& study) {
         add_row(name, condition, klux, study.cells.at({condition, klux}).at(name));
       }
     }
-    for (const std::string& condition : told_conditions(settings)) {
-      for (const std::string& name : told_estimators(settings)) {
-        add_row(name, "told-" + condition, klux, study.told.at({condition, klux}).at(name));
+    for (const std::string& condition : compensated_conditions(settings)) {
+      for (const std::string& name : compensated_estimators(settings)) {
+        add_row(name, "told-" + condition, klux, study.compensated.at({condition, klux}).at(name));
       }
     }
   }

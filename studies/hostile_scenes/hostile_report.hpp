@@ -11,10 +11,10 @@
 namespace dtof {
 
 /// Conditions, e.g. "late-laser (14, 50 klux)", in which an estimator has more than twice the coarse
-/// histogram's share of errors above 3 %, beyond both intervals. Empty without a coarse histogram. `told`:
-/// both with the additional knowledge of HostileScenes::told.
+/// histogram's share of errors above 3 %, beyond both intervals. Empty without a coarse histogram.
+/// `compensated`: both with the additional knowledge of HostileScenes::compensated.
 std::vector<std::string> behind_coarse_histogram(const HostileSettings& settings, const HostileScenes& study,
-                                                 const std::string& estimator, bool told);
+                                                 const std::string& estimator, bool compensated);
 
 /// Conditions in which every read-out has more than a tenth of its errors above 10 %, with the share of the
 /// best read-out.

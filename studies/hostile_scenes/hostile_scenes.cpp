@@ -39,22 +39,22 @@ SensorModel sensor_under(const HostileSettings& settings, const std::string& con
   return condition == kClear ? settings.sensor : under_condition(settings.sensor, condition);
 }
 
-bool tellable(const ReadoutParameters& readout) {
+bool has_compensation(const ReadoutParameters& readout) {
   return is_pool_readout(readout.readout) || readout.readout == Readout::kCoarseHistogram;
 }
 
 /// The estimators that have settings for the surroundings of `sensor`, with these settings.
-Estimators told_of(const HostileSettings& settings, const SensorModel& sensor,
-                   const std::vector<RangeConverter>& tables) {
-  Estimators told{.readouts = {}, .names = told_estimators(settings), .tables = {}};
+Estimators with_compensation(const HostileSettings& settings, const SensorModel& sensor,
+                             const std::vector<RangeConverter>& tables) {
+  Estimators compensated{.readouts = {}, .names = compensated_estimators(settings), .tables = {}};
   std::vector<ColumnStream> empty;
   if (has_own_light(sensor)) {
     empty = empty_columns(sensor, settings.seed);
-    told.returns = mean_returns(empty, sensor);
+    compensated.returns = mean_returns(empty, sensor);
   }
-  told.settle = silent_acquisitions(sensor);
+  compensated.settle = silent_acquisitions(sensor);
   for (std::size_t r = 0; r < settings.readouts.size(); ++r) {
-    if (!tellable(settings.readouts[r])) {
+    if (!has_compensation(settings.readouts[r])) {
       continue;
     }
     ReadoutParameters readout = settings.readouts[r];
@@ -64,11 +64,11 @@ Estimators told_of(const HostileSettings& settings, const SensorModel& sensor,
     if (!sensor.surroundings.skew.none()) {
       readout.pool.smooth = false;
     }
-    told.readouts.push_back(readout);
-    told.tables.push_back(tables[r]);
+    compensated.readouts.push_back(readout);
+    compensated.tables.push_back(tables[r]);
   }
-  told.tables.insert(told.tables.end(), tables.end() - kReferences.size(), tables.end());
-  return told;
+  compensated.tables.insert(compensated.tables.end(), tables.end() - kReferences.size(), tables.end());
+  return compensated;
 }
 
 /// Mean error of an estimator's pixels near their target, over all seeds; none where most are elsewhere.
@@ -183,10 +183,10 @@ std::vector<std::string> hostile_estimators(const HostileSettings& settings) {
   return names;
 }
 
-std::vector<std::string> told_estimators(const HostileSettings& settings) {
+std::vector<std::string> compensated_estimators(const HostileSettings& settings) {
   std::vector<std::string> names;
   for (const ReadoutParameters& readout : settings.readouts) {
-    if (tellable(readout)) {
+    if (has_compensation(readout)) {
       names.emplace_back(readout_name(readout.readout));
     }
   }
@@ -203,7 +203,7 @@ bool moves(const HostileSettings& settings, const std::string& condition) {
   return travel_of_a_frame(sensor_under(settings, condition)) != 0.0;
 }
 
-std::vector<std::string> told_conditions(const HostileSettings& settings) {
+std::vector<std::string> compensated_conditions(const HostileSettings& settings) {
   std::vector<std::string> names;
   for (const std::string& condition : settings.conditions) {
     const SensorModel sensor = sensor_under(settings, condition);
@@ -247,8 +247,9 @@ class HostileRun {
  public:
   explicit HostileRun(const HostileSettings& settings)
       : settings_(settings),
-        progress_("hostile scenes", (settings.conditions.size() + told_conditions(settings).size() + 1) *
-                                        settings.klux.size()) {
+        progress_("hostile scenes",
+                  (settings.conditions.size() + compensated_conditions(settings).size() + 1) *
+                      settings.klux.size()) {
     for (const Scene scene : settings.scenes) {
       scenes_.push_back(middle_of(scene, settings.sensor, settings.rows));
     }
@@ -262,7 +263,7 @@ class HostileRun {
     });
   }
 
-  HostileReadouts untold(const std::string& condition, double klux) {
+  HostileReadouts uncompensated(const std::string& condition, double klux) {
     return stored_or(condition, klux, [&] {
       return measure_hostile(settings_, all(klux), sensor_under(settings_, condition), klux, scenes_,
                              settings_.seed);
@@ -270,10 +271,11 @@ class HostileRun {
   }
 
   /// `instants`: of the estimators under a condition in which targets move, else null.
-  HostileReadouts told(const std::string& condition, double klux, const OwnInstants* instants) {
+  HostileReadouts compensated(const std::string& condition, double klux, const OwnInstants* instants) {
     return stored_or("told-" + condition, klux, [&] {
       const SensorModel sensor = sensor_under(settings_, condition);
-      Estimators estimators = instants != nullptr ? all(klux) : told_of(settings_, sensor, tables(klux));
+      Estimators estimators =
+          instants != nullptr ? all(klux) : with_compensation(settings_, sensor, tables(klux));
       estimators.instants = instants;
       return measure_hostile(settings_, estimators, sensor, klux, scenes_, settings_.seed);
     });
@@ -355,16 +357,16 @@ HostileScenes run_hostile_scenes(const HostileSettings& settings) {
       skies[name].push_back(seeds);
     }
     for (const std::string& condition : settings.conditions) {
-      study.cells[{condition, klux}] = run.untold(condition, klux);
+      study.cells[{condition, klux}] = run.uncompensated(condition, klux);
     }
-    for (const std::string& condition : told_conditions(settings)) {
+    for (const std::string& condition : compensated_conditions(settings)) {
       const HostileCell cell{condition, klux};
       if (moves(settings, condition)) {
         study.instants[cell] = run.instants(condition, klux);
       }
       const auto instants = study.instants.find(cell);
-      study.told[cell] =
-          run.told(condition, klux, instants != study.instants.end() ? &instants->second : nullptr);
+      study.compensated[cell] =
+          run.compensated(condition, klux, instants != study.instants.end() ? &instants->second : nullptr);
     }
   }
   for (const auto& [name, lights] : skies) {

@@ -76,7 +76,7 @@ struct HostileScenes {
   ///  - skew: S1 off;
   ///  - a laser that is silent at first: SETTLE, with as many acquisitions fewer;
   ///  - motion: all estimators are judged by the target's position at their own instant.
-  std::map<HostileCell, HostileReadouts> told;
+  std::map<HostileCell, HostileReadouts> compensated;
   /// Instants of each estimator, for the conditions in which targets move.
   std::map<HostileCell, OwnInstants> instants;
   /// Confidence thresholds of each estimator, the same for all light levels.
@@ -89,9 +89,9 @@ struct HostileScenes {
 std::vector<std::string> hostile_estimators(const HostileSettings& settings);
 std::string hostile_title(const std::string& estimator);
 /// Estimators in the tables with additional knowledge: coarse histogram, pool read-outs, references.
-std::vector<std::string> told_estimators(const HostileSettings& settings);
+std::vector<std::string> compensated_estimators(const HostileSettings& settings);
 /// Conditions of the settings for which additional knowledge exists.
-std::vector<std::string> told_conditions(const HostileSettings& settings);
+std::vector<std::string> compensated_conditions(const HostileSettings& settings);
 /// Acquisitions at the frame's start in which the laser is silent.
 std::uint32_t silent_acquisitions(const SensorModel& sensor);
 /// True if targets move in this condition.

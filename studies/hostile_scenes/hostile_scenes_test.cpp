@@ -87,8 +87,8 @@ class HostileReport : public testing::Test {
       }
     }
     for (const char* condition : {"fog", "late-laser"}) {
-      for (const std::string& name : told_estimators(settings_)) {
-        study_.told[{condition, 14.0}][name] = hostile_seeds(20);
+      for (const std::string& name : compensated_estimators(settings_)) {
+        study_.compensated[{condition, 14.0}][name] = hostile_seeds(20);
       }
     }
   }
@@ -97,7 +97,7 @@ class HostileReport : public testing::Test {
     settings_.conditions.emplace_back("motion");
     for (const std::string& name : hostile_estimators(settings_)) {
       study_.cells[{"motion", 14.0}][name] = hostile_seeds(30);
-      study_.told[{"motion", 14.0}][name] = hostile_seeds(20);
+      study_.compensated[{"motion", 14.0}][name] = hostile_seeds(20);
       study_.instants[{"motion", 14.0}].instants[name] = {0.75, std::nullopt};
     }
     study_.instants[{"motion", 14.0}].distances_m = {1.0, 3.0};
@@ -113,7 +113,8 @@ TEST_F(HostileReport, NamesTheConditionsThatAPoolReadoutDoesNotSurvive) {
   study_.cells[{"fog", 14.0}]["poolpointer"] = hostile_seeds(40);  // twice, within the intervals
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", false),
               ElementsAre("late-laser (14 klux)"));
-  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true), IsEmpty()) << "it is told";
+  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true), IsEmpty())
+      << "it is compensated";
   const std::string report = hostile_report(settings_, study_, "the command");
   EXPECT_THAT(report,
               HasSubstr("poolPointer has more than twice the coarse histogram's errors above 3 %, beyond "
@@ -145,13 +146,13 @@ TEST_F(HostileReport, TablesHoldEveryFigure) {
   EXPECT_THAT(curves[0].x, testing::Contains(testing::DoubleEq(50.0)));
 }
 
-TEST_F(HostileReport, NamesWhatRemainsOfThoseThatAreTold) {
-  study_.cells[{"clear", 14.0}]["poolpointer"] = hostile_seeds(0, 400);  // of this nothing can be told
+TEST_F(HostileReport, NamesWhatRemainsOfTheCompensatedEstimators) {
+  study_.cells[{"clear", 14.0}]["poolpointer"] = hostile_seeds(0, 400);  // no error can be told from these
   study_.cells[{"fog", 14.0}]["poolpointer"] = hostile_seeds(0, 400);
-  study_.told[{"late-laser", 14.0}]["poolpointer"] = hostile_seeds(0, 70);
+  study_.compensated[{"late-laser", 14.0}]["poolpointer"] = hostile_seeds(0, 70);
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true),
               ElementsAre("clear (14 klux)", "late-laser (14 klux)"));
-  study_.told[{"late-laser", 14.0}]["coarsehistogram"] = hostile_seeds(0, 60);
+  study_.compensated[{"late-laser", 14.0}]["coarsehistogram"] = hostile_seeds(0, 60);
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true), ElementsAre("clear (14 klux)"))
       << "the coarse histogram has its settings, too";
   EXPECT_THAT(hostile_report(settings_, study_, ""),
@@ -160,21 +161,21 @@ TEST_F(HostileReport, NamesWhatRemainsOfThoseThatAreTold) {
                         "fog 2, late-laser 7.\n"));
 }
 
-TEST_F(HostileReport, SaysWhatBecomesOfThoseThatAreTold) {
-  EXPECT_THAT(told_conditions(settings_), ElementsAre("fog", "late-laser"));
-  EXPECT_THAT(told_estimators(settings_),
+TEST_F(HostileReport, HasTheErrorsOfTheCompensatedEstimators) {
+  EXPECT_THAT(compensated_conditions(settings_), ElementsAre("fog", "late-laser"));
+  EXPECT_THAT(compensated_estimators(settings_),
               ElementsAre("coarsehistogram", "poolpointer", "matchedfilter", "pooledmatchedfilter"));
-  study_.told[{"fog", 14.0}]["poolpointer"] = hostile_seeds(10, 60);
+  study_.compensated[{"fog", 14.0}]["poolpointer"] = hostile_seeds(10, 60);
   const std::string report = hostile_report(settings_, study_, "");
   EXPECT_THAT(report, HasSubstr(" 7 / 6 | "));
   EXPECT_THAT(hostile_csv(settings_, study_).csv(), HasSubstr("\npoolpointer,told-fog,14,2000,0.07,"));
   settings_.conditions = {"clear", "settling-laser"};
   study_.cells[{"settling-laser", 14.0}] = study_.cells[{"clear", 14.0}];
-  EXPECT_THAT(told_conditions(settings_), IsEmpty());
+  EXPECT_THAT(compensated_conditions(settings_), IsEmpty());
   EXPECT_THAT(hostile_report(settings_, study_, ""), Not(HasSubstr("told of")));
   EXPECT_THAT(hostile_report(settings_, study_, ""), Not(HasSubstr("own instant")));
   settings_.conditions = {"clear", "glass", "column-skew", "pixel-skew", "other-laser-6ppm", "motion"};
-  EXPECT_THAT(told_conditions(settings_), ElementsAre("glass", "column-skew", "pixel-skew", "motion"));
+  EXPECT_THAT(compensated_conditions(settings_), ElementsAre("glass", "column-skew", "pixel-skew", "motion"));
 }
 
 TEST_F(HostileReport, JudgesMotionBothWays) {
@@ -272,18 +273,19 @@ TEST_F(HostileScenesTest, GlassFoolsAndSkewIsSubtracted) {
             static_cast<std::uint64_t>(2 * engine_columns_judged() * settings_.rows));
 }
 
-TEST_F(HostileScenesTest, GlassDoesNotFoolThoseThatAreTold) {
+TEST_F(HostileScenesTest, GlassDoesNotFoolCompensatedEstimators) {
   settings_.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
   settings_.conditions = {"clear", "glass"};
   const HostileScenes study = run_hostile_scenes(settings_);
   for (const std::string& name : hostile_estimators(settings_)) {
-    const double untold = share_above(study.cells.at({"glass", 2.0}).at(name), 10).value;
-    EXPECT_GT(untold, 0.4) << name;
-    EXPECT_LT(share_above(study.told.at({"glass", 2.0}).at(name), 10).value, 0.2 * untold) << name;
+    const double uncompensated = share_above(study.cells.at({"glass", 2.0}).at(name), 10).value;
+    EXPECT_GT(uncompensated, 0.4) << name;
+    EXPECT_LT(share_above(study.compensated.at({"glass", 2.0}).at(name), 10).value, 0.2 * uncompensated)
+        << name;
   }
 }
 
-TEST_F(HostileScenesTest, ALaserThatIsLateDoesNotFoolThoseThatAreTold) {
+TEST_F(HostileScenesTest, ALateLaserDoesNotFoolCompensatedEstimators) {
   settings_.readouts = {ReadoutParameters::defaults(Readout::kCoarseHistogram),
                         ReadoutParameters::defaults(Readout::kPoolPointer)};
   settings_.conditions = {"clear", "late-laser"};
@@ -294,10 +296,10 @@ TEST_F(HostileScenesTest, ALaserThatIsLateDoesNotFoolThoseThatAreTold) {
     return share_above(readouts.at("poolpointer"), 10).value;
   };
   EXPECT_GT(errors(study.cells.at({"late-laser", 2.0})), 0.2);
-  EXPECT_LT(errors(study.told.at({"late-laser", 2.0})), 0.05);
+  EXPECT_LT(errors(study.compensated.at({"late-laser", 2.0})), 0.05);
 }
 
-TEST_F(HostileScenesTest, SkewDoesNotFoolThoseThatAreTold) {
+TEST_F(HostileScenesTest, SkewDoesNotFoolCompensatedEstimators) {
   settings_.sensor.acquisitions = 3333;
   settings_.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
   settings_.conditions = {"clear", "pixel-skew"};
@@ -305,7 +307,8 @@ TEST_F(HostileScenesTest, SkewDoesNotFoolThoseThatAreTold) {
   const auto errors = [](const HostileReadouts& readouts) {
     return share_above(readouts.at("poolpointer"), 3).value;
   };
-  EXPECT_LT(errors(study.told.at({"pixel-skew", 2.0})), 0.5 * errors(study.cells.at({"pixel-skew", 2.0})));
+  EXPECT_LT(errors(study.compensated.at({"pixel-skew", 2.0})),
+            0.5 * errors(study.cells.at({"pixel-skew", 2.0})));
 }
 
 TEST_F(HostileScenesTest, MotionIsJudgedAtTheOwnInstant) {
@@ -318,9 +321,9 @@ TEST_F(HostileScenesTest, MotionIsJudgedAtTheOwnInstant) {
   EXPECT_GT(own.at("poolpointer", 1.0), 0.65) << "behind the track phase";
   EXPECT_NEAR(own.at("matchedfilter", 2.0), 0.5, 0.05);
   EXPECT_GT(mean_error(study.cells.at(cell).at("poolpointer")), 0.02);
-  EXPECT_NEAR(mean_error(study.told.at(cell).at("poolpointer")), -0.02, 0.01)
+  EXPECT_NEAR(mean_error(study.compensated.at(cell).at("poolpointer")), -0.02, 0.01)
       << "what is left is pile-up's, which draws what goes away and what comes nearer alike";
-  EXPECT_LT(share_above(study.told.at(cell).at("poolpointer"), 3).value,
+  EXPECT_LT(share_above(study.compensated.at(cell).at("poolpointer"), 3).value,
             0.5 * share_above(study.cells.at(cell).at("poolpointer"), 3).value);
 }
 

@@ -68,15 +68,15 @@ void add_coverage_command(CLI::App& app, const std::string& command_line) {
   command->add_option("-s,--seed", settings.study.run.seed, "the first seed")->capture_default_str();
   command
       ->add_option("--calibration-seed", settings.study.calibration_seed,
-                   "names the calibration run that the look-up table comes from")
+                   "number of the calibration run from which the look-up table comes")
       ->capture_default_str();
   command
       ->add_option("--other-calibrations", settings.other_calibrations,
-                   "calibration runs that the named one is compared with")
+                   "other calibration runs, for comparison")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command->add_flag("--calibrate-each-seed", settings.calibrate_each_seed,
-                    "a table of its own for each seed: what the intervals do not hold");
+                    "another look-up table for each seed: the intervals must then fail");
   options->readout.add_to(*command);
   command->add_option("-j,--threads", settings.study.run.threads, "threads, 0 = all processors")
       ->check(CLI::Range(0, 1024))

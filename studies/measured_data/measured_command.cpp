@@ -420,7 +420,9 @@ void add_measured_command(CLI::App& app, const std::string& command_line) {
       "true distances instead of the recording's own: a depth map (PNG of 8 or 16 bits, PFM or\n"
       "NPY) of the recording's size");
   add_truth_scale_option(*command, options->truth_scale);
-  command->add_option("--from-tick", options->from_tick, "photon times: leave earlier ones out")
+  command
+      ->add_option("--from-tick", options->from_tick,
+                   "photon times: the first tick that counts; earlier times are dropped")
       ->check(not_negative())
       ->capture_default_str();
   command->add_option("--tick", options->tick_ps, "photon times: duration of a tick in ps")
@@ -435,7 +437,7 @@ void add_measured_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command
       ->add_option("--photons", options->photons,
-                   "mean photons per pixel and frame, one or more; 0: all there are")
+                   "mean photons per pixel and frame, one or more; 0: all photons of the recording")
       ->check(not_negative())
       ->capture_default_str();
   command

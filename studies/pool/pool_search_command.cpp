@@ -228,7 +228,7 @@ void add_pool_search_command(CLI::App& app, const std::string& command_line) {
   command->add_option("--design", options->design, "where to start: NAME=NUMBER,... as in `dtof-study pool`");
   command->add_option("--vary", options->vary,
                       "NAME (one less and one more) or NAME=NUMBER,..., one or more");
-  command->add_option("--rounds", options->rounds, "times that all are tried, at most")
+  command->add_option("--rounds", options->rounds, "most rounds in which all numbers are tried")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   command->add_option("--seeds", options->seeds, "seeds of shapes and photons")

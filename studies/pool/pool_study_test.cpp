@@ -59,7 +59,7 @@ TEST(PoolDesign, ChangesTheNamedNumbersOnly) {
   }
 }
 
-TEST(PoolDesign, RefusesWhatItDoesNotKnow) {
+TEST(PoolDesign, RefusesUnknownNames) {
   EXPECT_THAT(
       [] { (void)parse_pool_design("LEAK=2"); },
       ThrowsMessage<InputError>(HasSubstr("poolPointer has no LEAK to change; known are COUNT_WIDTH,")));

@@ -309,7 +309,7 @@ void add_rivals_command(CLI::App& app, const std::string& command_line) {
                     "each rival also with its pixels pooled along the column by the host");
   command->add_flag(
       "--claims", options->claims,
-      "also put the first estimates of the rivals' entries beside what is measured on such walls");
+      "also compare the errors that a rival's entry states for a flat wall with measured errors");
   command->add_option(
       "--bits", options->bits,
       "READOUT=BITS, one or more: bits a pixel of the project's read-outs, as synthesis reports them");

@@ -184,7 +184,7 @@ SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutP
                                           FlatCalibration::kFrame);
   };
   for (std::size_t e = 0; e < titles_.size(); ++e) {
-    if (hears_other_columns(e)) {
+    if (uses_other_columns(e)) {
       converters_.push_back(calibration.fit(photons, std::span(&readouts_[e], 1), seed_, threads_).front());
       continue;
     }
@@ -194,7 +194,7 @@ SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutP
   }
 }
 
-bool SceneStudy::hears_other_columns(std::size_t estimator) const {
+bool SceneStudy::uses_other_columns(std::size_t estimator) const {
   return estimator < readouts_.size() && readouts_[estimator].columns_together() > 1;
 }
 
@@ -218,7 +218,7 @@ SceneStudy::Positions SceneStudy::read(const SensorModel& sensor, const StudySce
       }
     };
     for (std::size_t e = 0; e < readouts_.size(); ++e) {
-      if (hears_other_columns(e)) {
+      if (uses_other_columns(e)) {
         continue;
       }
       store(e, *make_readout_model(readouts_[e]), readouts_[e].fraction_bits);
@@ -265,7 +265,7 @@ void SceneStudy::read_engines(const StudyScene& scene, std::uint32_t frame, Posi
     columns[i] = picked_column(scene, static_cast<int>(i));
   }
   for (std::size_t e = 0; e < readouts_.size(); ++e) {
-    if (!hears_other_columns(e)) {
+    if (!uses_other_columns(e)) {
       continue;
     }
     const std::vector<PixelResult> results = run_frame(source, readouts_[e], threads_, columns);

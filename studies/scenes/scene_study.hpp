@@ -88,7 +88,7 @@ class SceneStudy {
 
  private:
   using Positions = std::vector<std::vector<Measurement>>;  // estimator, row * columns + column
-  [[nodiscard]] bool hears_other_columns(std::size_t estimator) const;
+  [[nodiscard]] bool uses_other_columns(std::size_t estimator) const;
   /// Reads with all estimators except read-outs whose columns depend on each other.
   [[nodiscard]] Positions read(const SensorModel& sensor, const StudyScene& scene, std::uint32_t frame) const;
   /// Reads with the read-outs whose columns depend on each other. Processes whole engines of the scene,

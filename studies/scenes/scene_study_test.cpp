@@ -150,7 +150,7 @@ TEST(SceneStudy, RanksEstimatorsTheSameWhateverTheThreads) {
 }
 
 // Engines are whole, however few columns are judged, and the other estimators do not notice.
-TEST(SceneStudy, ReadsWholeEnginesOfColumnsThatHearEachOther) {
+TEST(SceneStudy, ReadsWholeEnginesOfColumnsThatUseEachOther) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 400;
   const ReadoutParameters alone = ReadoutParameters::defaults(Readout::kFifh);

@@ -122,7 +122,7 @@ void add_sensor_effects_command(CLI::App& app, const std::string& command_line) 
   command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
       ->check(sensible_klux())
       ->capture_default_str();
-  command->add_option("--distances", options->distances_m, "of the targets in m, one or more")
+  command->add_option("--distances", options->distances_m, "distances of the targets in m, one or more")
       ->capture_default_str();
   command
       ->add_option("-r,--readout", options->readouts.readouts,

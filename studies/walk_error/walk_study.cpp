@@ -34,7 +34,7 @@ constexpr double kWalkOutlier = 0.10;
 constexpr double kRequirement = 0.03;
 constexpr double kLeastFound = 0.5;
 
-bool hears_other_columns(const ReadoutParameters& readout) { return readout.columns_together() > 1; }
+bool uses_other_columns(const ReadoutParameters& readout) { return readout.columns_together() > 1; }
 
 /// A column of pixels that all look at one target; where columns depend on each other, the right one of a
 /// pair, whose left one has the photons of another frame.
@@ -49,7 +49,7 @@ Measurements read(const WalkSettings& settings, std::span<const PixelTarget> col
   }
   const PhotonSource source(settings.sensor, targets, settings.klux, settings.seed, frame);
   const PhotonSource lefts = source.at_frame(frame + kLeftFrames);
-  const bool paired = std::ranges::any_of(settings.readouts, hears_other_columns);
+  const bool paired = std::ranges::any_of(settings.readouts, uses_other_columns);
   Measurements measurements(settings.readouts.size(), std::vector<std::vector<Measurement>>(columns.size()));
   parallel_for(columns.size(), settings.threads, [&](std::size_t column) {
     const int index = static_cast<int>(column);
@@ -59,7 +59,7 @@ Measurements read(const WalkSettings& settings, std::span<const PixelTarget> col
       const ReadoutParameters& readout = settings.readouts[r];
       const auto model = make_readout_model(readout);
       const std::uint32_t acquisitions = settings.sensor.acquisitions;
-      const std::vector<PixelResult> results = hears_other_columns(readout)
+      const std::vector<PixelResult> results = uses_other_columns(readout)
                                                    ? model->run_columns(pair, acquisitions).back()
                                                    : model->run_column(pair.back(), acquisitions);
       for (const PixelResult& result : results) {

@@ -64,7 +64,7 @@ TEST(WalkStudy, DoesNotDependOnTheThreads) {
   }
 }
 
-TEST(WalkStudy, ColumnsThatHearEachOtherAreReadInPairs) {
+TEST(WalkStudy, ColumnsThatUseEachOtherAreReadInPairs) {
   WalkSettings settings = small_walk_study();
   const std::vector<WalkReadout> alone = run_walk_study(settings);
   settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer));

@@ -81,7 +81,7 @@ InputError no_engine_compiled(const std::string& wanted, int rows, int columns) 
   }
   return InputError{
       fmt::format("no RTL is compiled for {} with just {} rows and an engine of just {} columns, which "
-                  "hear each other; compiled are: {}",
+                  "use each other's results; compiled are: {}",
                   wanted, rows, columns, compiled.empty() ? "none" : compiled)};
 }
 

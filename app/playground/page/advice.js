@@ -42,7 +42,7 @@ function showAdvice(text, asked) {
   byId("advice").dataset.readout = recommended;
 }
 
-const hearAdviser = (asked) => ({
+const adviserEvents = (asked) => ({
   ready() {
     adviser.postMessage({ what: asked.what, sensor: asked.sensor, text: asked.text });
   },
@@ -73,10 +73,10 @@ function advise() {
     adviser.terminate();
   }
   const asked = adviceRequest();
-  const hears = hearAdviser(asked);
+  const events = adviserEvents(asked);
   byId("advice-progress").removeAttribute("value");
   sayAdvice("Estimating every set of parameters ...");
-  adviser = makeWorker((message) => hears[message.what](message), (sentence) => hears.failed({ sentence }));
+  adviser = makeWorker((message) => events[message.what](message), (sentence) => events.failed({ sentence }));
 }
 
 adviceForm.onsubmit = (event) => {

@@ -52,8 +52,8 @@ compared.canvas.onpointermove = compared.canvas.onpointerdown = (event) => {
   }
   const column = Math.floor(across * scene.columns), row = Math.floor(down * scene.rows);
   if (column >= 0 && row >= 0 && column < scene.columns && row < scene.rows) {
-    const told = comparedFrames().map((frame) => describePixel(frame, readoutTitle(frame))(row * scene.columns + column));
+    const descriptions = comparedFrames().map((frame) => describePixel(frame, readoutTitle(frame))(row * scene.columns + column));
     watchPixel(column, row);
-    byId("compare-pixel").textContent = `Column ${column}, row ${row}: ${told.join("; ")}`;
+    byId("compare-pixel").textContent = `Column ${column}, row ${row}: ${descriptions.join("; ")}`;
   }
 };

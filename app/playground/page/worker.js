@@ -43,11 +43,11 @@ createModels().then((models) => {
     postMessage({ what: "scene", columns, rows, recorded: Boolean(recording), truth: floats("truth", pixels),
       brightness: floats("brightness", pixels) });
     attempt("calibrate");
-    let told = 0;
+    let reported = 0;
     for (let column = 0; column < columns; ++column) {
       attempt("read_column", ["number"], [column]);
-      if (performance.now() - told > PROGRESS_MS) {
-        told = performance.now();
+      if (performance.now() - reported > PROGRESS_MS) {
+        reported = performance.now();
         postMessage({ what: "progress", done: column + 1, of: columns });
       }
     }

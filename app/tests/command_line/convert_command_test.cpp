@@ -46,7 +46,7 @@ TEST_F(ConvertCommand, ADepthMapOfAFrameBecomesAPointCloudWithItsConfidence) {
   EXPECT_THAT(contents(path("a.pcd")), HasSubstr("FIELDS x y z confidence\n"));
 }
 
-TEST_F(ConvertCommand, HistogramsAreReplayedFromAnArchiveThatKnowsItsBins) {
+TEST_F(ConvertCommand, HistogramsAreReplayedFromAnArchiveThatHasItsBins) {
   std::vector<double> counts(96, 0.0);  // 2 rows, 3 columns, 16 bins
   for (std::size_t pixel = 0; pixel < 6; ++pixel) {
     counts[pixel * 16 + 5] = 40.0;

@@ -64,12 +64,12 @@ TEST_F(Programs, TemplateTakesTheGlassAway) {
   const std::string frame =
       "frame -r poolpointer --sensor thesis+glass --array-columns 34 --array-rows 5 --acquisitions 1000 ";
   ASSERT_EQ(run(DTOF_FULL_PROGRAM, frame + "--out fooled").exit_code, 0);
-  ASSERT_EQ(run(DTOF_FULL_PROGRAM, frame + "--template --out told").exit_code, 0);
-  EXPECT_NE(read_file(path("told/poolpointer.csv")), read_file(path("fooled/poolpointer.csv")));
+  ASSERT_EQ(run(DTOF_FULL_PROGRAM, frame + "--template --out compensated").exit_code, 0);
+  EXPECT_NE(read_file(path("compensated/poolpointer.csv")), read_file(path("fooled/poolpointer.csv")));
   const Outcome whole =
       run(DTOF_FULL_PROGRAM, frame + "--template --verify --engine subsystem --out subsystem");
   ASSERT_EQ(whole.exit_code, 0) << whole.output;
-  EXPECT_EQ(read_file(path("subsystem/poolpointer.csv")), read_file(path("told/poolpointer.csv")));
+  EXPECT_EQ(read_file(path("subsystem/poolpointer.csv")), read_file(path("compensated/poolpointer.csv")));
   const auto refused = [&](const std::string& options, const char* sentence) {
     const Outcome outcome = dtof("frame --out refused --template " + options);
     EXPECT_EQ(outcome.exit_code, 1);
@@ -217,7 +217,7 @@ TEST_F(Programs, APartOfAPoolReadoutsColumnsIsReadAsInTheWholeArray) {
 TEST_F(Programs, APoolReadoutsRtlNeedsAnEngineOfTheColumns) {
   const std::string frame = "frame --array-columns 7 --array-rows 9 -a 20 --engine rtl --out out ";
   expect_refused(frame + "-r poolpointer",
-                 "an engine of just 7 columns, which hear each other; compiled are: poolpointer");
+                 "an engine of just 7 columns, which use each other's results; compiled are: poolpointer");
   const Outcome all = dtof(frame + "-r all");
   ASSERT_EQ(all.exit_code, 0) << all.output;
   EXPECT_THAT(all.output, HasSubstr("poolPointer is left out: its RTL is not compiled for 7 columns"));

@@ -77,13 +77,13 @@ TEST_F(JsonCommand, EveryCommandHasOneObject) {
 
 TEST_F(JsonCommand, AFramesFiguresAreThoseOfItsSummaryAndItsFilesTheSame) {
   ASSERT_EQ(run(fmt::format("frame {} --out plain", kSmall)).exit_code, 0);
-  const nlohmann::json object = json(fmt::format("frame {} --out told", kSmall));
+  const nlohmann::json object = json(fmt::format("frame {} --out out_json", kSmall));
   const std::string summary = contents(path("plain/summary.csv"));
-  EXPECT_EQ(contents(path("told/summary.csv")), summary);
+  EXPECT_EQ(contents(path("out_json/summary.csv")), summary);
   ASSERT_EQ(object.at("readouts").size(), 2U);
   for (const auto& readout : object.at("readouts")) {
     const std::string name = readout.at("readout");
-    EXPECT_EQ(contents(path("told") / (name + ".csv")), contents(path("plain") / (name + ".csv")));
+    EXPECT_EQ(contents(path("out_json") / (name + ".csv")), contents(path("plain") / (name + ".csv")));
     EXPECT_THAT(summary, HasSubstr(fmt::format("{},{:.0f},{:.0f},", readout.at("title").get<std::string>(),
                                                readout.at("rmse_m").get<double>() * 1e3,
                                                readout.at("bias_m").get<double>() * 1e3)));

@@ -124,7 +124,7 @@ TEST_F(Product, WithASelfTestRunsItInItsBench) {
   EXPECT_THAT(read_file(folder_ / "without/rtl/dtof_product.sv"), Not(HasSubstr("SELF_TEST")));
 }
 
-TEST_F(Product, ThatIsToldOfFogHasItsTemplate) {
+TEST_F(Product, ForFogHasItsTemplate) {
   std::ofstream(folder_ / "fog.toml") << kSensor << "\n[fog]\nextinction_per_m = 0.1\n";
   ASSERT_EQ(shell(fmt::format("{} product --sensor fog.toml --readout poolpointer --template --out chip",
                               DTOF_PROGRAM))

@@ -88,7 +88,7 @@ TEST(VideoReader, EachFrameIsTheModelsOwn) {
   }
 }
 
-TEST(VideoReader, ReadOutsThatHearOtherColumnsReadWholeEngines) {
+TEST(VideoReader, ReadOutsThatUseOtherColumnsReadWholeEngines) {
   const SensorModel sensor = short_sensor();
   const std::vector<ReadoutParameters> all = {default_parameters(Readout::kPoolPointer, sensor),
                                               default_parameters(Readout::kPoolPointerLean, sensor)};

@@ -161,10 +161,9 @@ class ReadoutDistribution {
         break;
       case Readout::kPoolPointer:
       case Readout::kPoolPointerLean:
-        throw InputError("the analytic model knows no read-out that pools pixels");
+        throw InputError("the analytic model has no read-out that pools pixels");
       default:
-        throw InputError(
-            fmt::format("the analytic model does not know {}", readout_title(parameters_.readout)));
+        throw InputError(fmt::format("the analytic model has no {}", readout_title(parameters_.readout)));
     }
     return std::move(positions_);
   }

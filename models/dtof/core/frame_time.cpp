@@ -81,8 +81,8 @@ class Decide {
   int columns_;
   int together_;
   int steps_;
-  int given_ = 0;  // results of the set that dtof_pool_result_output is told of
-  int sets_ = 0;   // told of and not sent
+  int given_ = 0;  // results of the set that the engine announces to dtof_pool_result_output
+  int sets_ = 0;   // announced and not sent
   int left_ = 0;   // results of the set that is being sent
   std::deque<int> way_;
   std::deque<int> waiting_;

@@ -34,7 +34,7 @@ ColumnStream KeptStreams::column_rows(int index, RowRange rows) const {
   return drawn;
 }
 
-void KeptStreams::forget(int index) {
+void KeptStreams::drop(int index) {
   Kept& kept = kept_.at(static_cast<std::size_t>(index));
   const std::lock_guard lock(kept.mutex);
   if (kept.stream != nullptr) {

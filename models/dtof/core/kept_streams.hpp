@@ -25,7 +25,7 @@ class KeptStreams final : public StreamSource {
   [[nodiscard]] ColumnStream column_rows(int index, RowRange rows) const override;
 
   /// Frees the memory of a column's stream; the next read draws the stream again.
-  void forget(int index);
+  void drop(int index);
 
   /// Default memory limit, bytes. A frame of 200 x 160 pixels and 3,333 acquisitions at 14 klux takes 0.4 GB.
   static constexpr std::size_t kMostBytes = std::size_t{1} << 30U;

@@ -14,7 +14,9 @@ namespace dtof {
 struct ParameterEntry {
   std::string_view name;  ///< as in the RTL, e.g. "COUNT_WIDTH"
   std::string_view help;  ///< meaning, from readouts.toml
-  bool flag;              ///< true if the value is 0 or 1
+  std::string_view
+      legal;  ///< legal values, from parameters.toml, e.g. "3 to 16 bits; poolPointer: 8 to 16 bits"
+  bool flag;  ///< true if the value is 0 or 1
   int (*get)(const ReadoutParameters&);
   void (*set)(ReadoutParameters&, int);
 };
@@ -45,12 +47,13 @@ constexpr auto& part(Parameters& parameters) {
 
 /// Entry of a member of ReadoutParameters or PoolPointerParameters, a number or a bool.
 template <auto Member>
-constexpr ParameterEntry entry(std::string_view name, std::string_view help) {
+constexpr ParameterEntry entry(std::string_view name, std::string_view help, std::string_view legal) {
   using Owner = decltype(detail::owner_of(Member));
   using Type = decltype(detail::type_of(Member));
   return {
       .name = name,
       .help = help,
+      .legal = legal,
       .flag = std::is_same_v<Type, bool>,
       .get =
           [](const ReadoutParameters& from) { return static_cast<int>(detail::part<Owner>(from).*Member); },

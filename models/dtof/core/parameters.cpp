@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/parameter_entry.hpp"
+#include "dtof/core/parameter_limits.hpp"
 #include "dtof/core/suggestion.hpp"
 
 namespace dtof {
 namespace {
 
-constexpr int kFewestBits = 3;  // of a timestamp
-constexpr int kMostBits = 16;
 constexpr int kPoolCoarseBits = 5;
 constexpr int kPoolPositionBits = 16;
 constexpr int kPoolRivalBits = 7;
@@ -24,7 +24,6 @@ constexpr int kPoolCellBits = 7;
 constexpr int kMostPoolSignificanceBits = 3;
 constexpr int kFewestPoolBackgroundBits = 4;
 
-// Sentences are word for word those with which the RTL stops elaboration (hdl/lint/parameter_limits.csv).
 void require(bool legal, std::string_view sentence, int value) {
   if (!legal) {
     throw InputError(fmt::format("{}, not {}", sentence, value));
@@ -36,7 +35,32 @@ void require_range(std::string_view name, int value, int lowest, int highest) {
           value);
 }
 
+/// Limits that depend on the width of a pixel word (word for word those of the RTL).
+void require_memory(const PoolPointerParameters& pool, int count_width) {
+  const int group_bits = kPoolCellBits * pool.labels + pool.background_bits();
+  const int half_bits = std::max(2 * pool.word_bits(), group_bits);
+  require(!pool.prior || group_bits + pool.labels <= half_bits,
+          "a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1", pool.labels);
+  const int line_halves = pool.bin_halves(count_width);
+  require(8 * count_width < line_halves * half_bits && pool.group_size >= 4 * line_halves,
+          "32 bins of COUNT_WIDTH and a bit more must fit the words of GROUP_SIZE rows", count_width);
+}
+
 }  // namespace
+
+const ParameterLimit* broken_limit(const ReadoutParameters& parameters, std::string_view parameter) {
+  const std::span<const ParameterLimit> limits = parameter_limits(is_pool_readout(parameters.readout));
+  const auto broken = std::ranges::find_if(limits, [&](const ParameterLimit& limit) {
+    return (parameter.empty() || limit.parameter == parameter) && !limit.legal(parameters);
+  });
+  return broken == limits.end() ? nullptr : &*broken;
+}
+
+void require_legal(const ReadoutParameters& parameters, std::string_view parameter) {
+  if (const ParameterLimit* const broken = broken_limit(parameters, parameter)) {
+    require(false, broken->sentence, broken->value(parameters));
+  }
+}
 
 Readout parse_readout(std::string_view name) {
   std::vector<std::string_view> known;
@@ -54,28 +78,10 @@ PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
 }
 
 void PoolPointerParameters::validate(int count_width) const {
-  require(group_size >= 4 && group_size <= 32 && std::has_single_bit(static_cast<unsigned>(group_size)),
-          "GROUP_SIZE must be a power of two from 4 to 32", group_size);
-  require_range("LABELS", labels, 2, 8);
-  require_range("SCORE_BITS", score_bits, 1, 4);
-  require(offset_bits == 0 || (offset_bits >= 2 && offset_bits <= 6), "OFFSET_BITS must be 0 or 2 to 6",
-          offset_bits);
-  require(count_bits == 4 || count_bits == 7, "ADVANTAGE_WIDTH must be 4 or 7", count_bits);
-  require(pointer_shift >= 0 && pointer_shift <= (count_bits == 4 ? 4 : 2),
-          "POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4", pointer_shift);
-  require(rival_moves || offset_bits == 0, "OFFSET_BITS must be 0 if RIVAL_MOVES is 0", offset_bits);
-  require_range("CELL_SHIFT", cell_shift, 8, 10);
-  require_range("COARSE_SHARE", coarse_share, 1, 62);
-  require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
-  const int group_bits = kPoolCellBits * labels + background_bits();
-  const int half_bits = std::max(2 * word_bits(), group_bits);
-  require(!prior || group_bits + labels <= half_bits,
-          "a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1", labels);
-  const int line_halves = bin_halves(count_width);
-  require(8 * count_width < line_halves * half_bits && group_size >= 4 * line_halves,
-          "32 bins of COUNT_WIDTH and a bit more must fit the words of GROUP_SIZE rows", count_width);
-  require(engine_columns >= 2 && engine_columns % 2 == 0,
-          "ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM", engine_columns);
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer);
+  parameters.count_width = count_width;
+  parameters.pool = *this;
+  parameters.validate();
 }
 
 int PoolPointerParameters::word_bits() const {
@@ -112,7 +118,9 @@ PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParamete
 }
 
 ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
-  require_range("NP", np, kFewestBits, kMostBits);
+  ReadoutParameters bits;
+  bits.np = np;
+  require_legal(bits, "NP");
   ReadoutParameters parameters;
   parameters.readout = readout;
   parameters.np = np;
@@ -125,25 +133,11 @@ ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
 }
 
 void ReadoutParameters::validate() const {
-  if (is_pool_readout(readout)) {
-    require_range("NP", np, 8, kPoolPositionBits);
+  require_legal(*this);
+  if (is_pool_readout(readout)) {  // NB and FRACTION_BITS of its RTL follow from NP
     require(nb == kPoolCoarseBits, "NB must be 5", nb);
-    require_range("SLOTS", slots, 2, 4);
-    require_range("COUNT_WIDTH", count_width, 4, 8);
     require(fraction_bits == kPoolPositionBits - np, "FRACTION_BITS must be 16 - NP", fraction_bits);
-    pool.validate(count_width);
-  } else {
-    require_range("NP", np, kFewestBits, kMostBits);
-    require(nb >= 1 && nb <= np, "NB must be 1 to NP", nb);
-    require_range("SLOTS", slots, 1, 16);
-    require_range("COUNT_WIDTH", count_width, 1, 16);
-    require(pointer_step >= 1 && pointer_step < 1 << (np - 1), "POINTER_STEP must be 1 to 2^(NP-1) - 1",
-            pointer_step);
-    require(fraction_bits >= 0 && fraction_bits <= 8 && np + fraction_bits <= 16,
-            "FRACTION_BITS must be 0 to 8 and NP + FRACTION_BITS at most 16", fraction_bits);
-    require_range("CONFIDENCE_WIDTH", confidence_width, 0, 8);
-    require(readout != Readout::kHisPointer || (guard >= 0 && guard <= 1 << np), "GUARD must be 0 to 2^NP",
-            guard);
+    require_memory(pool, count_width);
   }
   if (time_gate) {
     require_range("gate begin", time_gate->begin, 0, no_detection());

@@ -22,29 +22,38 @@ using PoolTemplate = std::array<std::uint8_t, 32>;
 constexpr int pool_template_unit(int count_width) { return count_width > 5 ? 1 << (count_width - 5) : 1; }
 
 /// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer.md).
-/// Lengths are fractions of a coarse bin, a 32nd of the range.
+/// The limits are in parameter_limits.hpp.
 struct PoolPointerParameters {
-  int group_size =
-      4;           ///< GROUP_SIZE: rows of a group, which shares a coarse histogram; a power of two, 4 .. 32
-  int labels = 5;  ///< LABELS: candidate depths of a group, 2 .. 8
-  int score_bits = 4;  ///< SCORE_BITS: width of a candidate's score in a pixel word, 1 .. 4
-  int offset_bits =
-      6;  ///< OFFSET_BITS: width of the leader's offset (signed, 32nds of a coarse bin), 2 .. 6; 0: none
-  int count_bits = 7;  ///< ADVANTAGE_WIDTH: bits of the leader's advantage in the pointer phase, 4 or 7
-  /// POINTER_SHIFT: the leader's pointer has the unit 2^(pointer_shift - 11) coarse bins; 0 .. 2, or 0 .. 4
-  /// if count_bits is 4.
+  // members of a pool read-out: written by scripts/generate.py from readouts.toml
+  // clang-format off
+  /// GROUP_SIZE: rows of a group, which shares a coarse histogram
+  int group_size = 4;
+  /// LABELS: candidates of a group
+  int labels = 5;
+  /// SCORE_BITS: bits of their scores
+  int score_bits = 4;
+  /// OFFSET_BITS: bits of a leader's offset in the track phase, 0 for none
+  int offset_bits = 6;
+  /// ADVANTAGE_WIDTH: bits of the leader's advantage
+  int count_bits = 7;
+  /// POINTER_SHIFT: a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins
   int pointer_shift = 1;
-  /// RIVAL_MOVES: true: the rival has a pointer of 7 bits; false: it stays at its candidate.
+  /// RIVAL_MOVES: 1: the rival has a pointer of its own
   bool rival_moves = true;
-  /// CELL_SHIFT: cells around a settled pointer have 2^cell_shift positions; 8 .. 10.
+  /// CELL_SHIFT: windows of a settled pointer: 8 for pulses below 0.75 coarse bins (FWHM), 10 from 2.25
   int cell_shift = 9;
-  bool second_target = false;  ///< SECOND_TARGET: a result also has the position of the losing label
-  /// PRIOR: the array keeps the candidates that a frame used, as a prior for the next frame.
+  /// SECOND_TARGET: 1: a result has the position of the label that lost, too
+  bool second_target = false;
+  /// PRIOR: 1: candidates may begin from those that were used in the last frame (`prior_i`)
   bool prior = false;
-  int coarse_share = 14;  ///< COARSE_SHARE: length of the coarse phase, 64ths of the frame
-  int track_share = 30;   ///< TRACK_SHARE: length of the track phase, 64ths of the frame
-  /// ENGINE_COLUMNS: columns that share an engine and use each other's results; even.
+  /// ENGINE_COLUMNS: columns that share an engine
   int engine_columns = 34;
+  /// COARSE_SHARE: 64ths of a frame that the coarse phase is recommended to take
+  int coarse_share = 14;
+  /// TRACK_SHARE: 64ths of a frame that the track phase is recommended to take
+  int track_share = 30;
+  // clang-format on
+  // end of members of a pool read-out
   bool smooth = true;              ///< smoothing S1 is on
   PoolTemplate coarse_template{};  ///< TEMPLATE registers for crosstalk and fog; 0: no correction
 
@@ -89,19 +98,31 @@ struct CodeGate {
   bool operator==(const CodeGate&) const = default;
 };
 
-/// Parameters of a read-out, with the names of the RTL (spec section 1; ranges in
-/// docs/reference/readouts.md).
+/// Parameters of a read-out, named as in the RTL. The limits are in parameter_limits.hpp.
 struct ReadoutParameters {
   Readout readout = Readout::kEzPointer;
-  int np = 10;               ///< NP, bits of a timestamp
-  int nb = 5;                ///< NB, bits of the coarse index (unused by ezPointer, three steps, histogram)
-  int slots = 2;             ///< SLOTS
-  int count_width = 10;      ///< COUNT_WIDTH
-  int pointer_step = 1;      ///< POINTER_STEP, bins
-  int fraction_bits = 0;     ///< FRACTION_BITS (pointer read-outs, coarse histogram)
-  int confidence_width = 4;  ///< CONFIDENCE_WIDTH (pointer read-outs)
-  int guard = 46;            ///< GUARD, bins (hisPointer v2)
-  bool window_centred = false;  ///< WINDOW_CENTRED (SiFH)
+  // members of all read-outs: written by scripts/generate.py from readouts.toml
+  // clang-format off
+  /// NP: bits of a TDC timestamp
+  int np = 10;
+  /// NB: bits of the coarse histogram index
+  int nb = 5;
+  /// SLOTS: timestamps per pixel and acquisition
+  int slots = 2;
+  /// COUNT_WIDTH: bits of a histogram bin, a counter that never wraps
+  int count_width = 10;
+  /// POINTER_STEP: bins a pointer moves per timestamp
+  int pointer_step = 1;
+  /// FRACTION_BITS: fractional bits of the pointer
+  int fraction_bits = 0;
+  /// CONFIDENCE_WIDTH: bits of a pointer's confidence, 0 for none
+  int confidence_width = 4;
+  /// GUARD: hisPointer: side band beyond half a coarse bin, the FWHM of 2 ns in 45 ns
+  int guard = 46;
+  /// WINDOW_CENTRED: SiFH: window centred on the coarse bin (Fig. 3.8) instead of Eq. 2.5
+  bool window_centred = false;
+  // clang-format on
+  // end of members of all read-outs
   /// Values of gate_begin_i and gate_end_i at the frame's start; none: TIME_GATE = 0.
   std::optional<CodeGate> time_gate;
   PoolPointerParameters pool;  ///< pool read-outs

@@ -120,10 +120,10 @@ std::vector<RangeConverter> FlatCalibration::fit(const Photons& photons,
       measurements[readout][row * width + d] = to_measurement(results[row], readouts[readout].fraction_bits);
     }
   };
-  const auto hears_others = [](const ReadoutParameters& readout) { return readout.columns_together() > 1; };
+  const auto uses_others = [](const ReadoutParameters& readout) { return readout.columns_together() > 1; };
   const std::unique_ptr<StreamSource> source = photons(targets_);
   const std::unique_ptr<StreamSource> pairs =
-      std::ranges::any_of(readouts, hears_others) ? photons(paired_targets()) : nullptr;
+      std::ranges::any_of(readouts, uses_others) ? photons(paired_targets()) : nullptr;
   parallel_for(width, threads, [&](std::size_t d) {
     const ColumnStream alone = source->column(column(d));
     std::array<ColumnStream, 2> pair;
@@ -135,8 +135,8 @@ std::vector<RangeConverter> FlatCalibration::fit(const Photons& photons,
       clear.pool.coarse_template = {};  // nothing stands before these targets
       const auto model = make_readout_model(clear);
       store(r, d,
-            hears_others(readouts[r]) ? model->run_columns(pair, source->acquisitions()).back()
-                                      : model->run_column(alone, source->acquisitions()));
+            uses_others(readouts[r]) ? model->run_columns(pair, source->acquisitions()).back()
+                                     : model->run_column(alone, source->acquisitions()));
     }
   });
   std::vector<RangeConverter> tables;

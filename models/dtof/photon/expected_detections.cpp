@@ -54,7 +54,7 @@ std::vector<std::vector<double>> expected_slot_detections(const SensorModel& mod
   if (model.dead_time_s > 0.0 || model.afterpulse_probability > 0.0 || model.binning > 1 ||
       model.coincidence_window_s || !model.surroundings.none()) {
     throw InputError(
-        "expected detections know no dead time, afterpulsing, binning, coincidence or surroundings: use the "
+        "expected detections have no dead time, afterpulsing, binning, coincidence or surroundings: use the "
         "exact "
         "photon model");
   }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/parameter_limits.hpp"
 #include "dtof/core/random.hpp"
 #include "dtof/photon/physics.hpp"
 
@@ -87,8 +88,10 @@ SensorModel SensorModel::as_calibrated() const {
 }
 
 void SensorModel::validate() const {
-  if (np < 3 || np > 16) {
-    throw InputError(fmt::format("sensor model: NP must be 3 to 16, not {}", np));
+  ReadoutParameters bits;
+  bits.np = np;
+  if (const ParameterLimit* const broken = broken_limit(bits, "NP")) {
+    throw InputError(fmt::format("sensor model: {}, not {}", broken->sentence, np));
   }
   if (slots < 1) {
     throw InputError(fmt::format("sensor model: SLOTS must be at least 1, not {}", slots));

@@ -104,7 +104,7 @@ class FramePipeline {
   /// Reads the region from the same photons with another engine.
   [[nodiscard]] ReadoutRun read_by(const FrameEngine& engine, const ReadoutParameters& readout) const;
   /// Frees the memory of a column's photons; the next read draws them again.
-  void forget_photons(int column) { streams_->forget(column); }
+  void drop_photons(int column) { streams_->drop(column); }
   /// Positions of the region's results on the code axis, in bins, minus the timing skew of each pixel, which
   /// the host knows.
   [[nodiscard]] std::vector<double> positions(std::span<const PixelResult> results,

@@ -16,12 +16,12 @@
 namespace dtof {
 namespace {
 
-/// What a pixel tells its neighbour: at each bin the best of the pixel's bins within reach, or any bin at the
-/// price of an edge, relative to its very best.
+/// The message from a pixel to its neighbour: at each bin the best of the pixel's bins within reach, or any
+/// bin at the price of an edge, relative to its very best.
 std::vector<double> message(const std::vector<double>& evidence, std::size_t reach, double edge_penalty) {
   const std::size_t bins = evidence.size();
   const double best = std::ranges::max(evidence);
-  std::vector<double> told(bins);
+  std::vector<double> outgoing(bins);
   std::deque<std::size_t> falling;  // bins of the window that can still become its maximum, largest first
   std::size_t next = 0;
   for (std::size_t bin = 0; bin < bins; ++bin) {
@@ -34,9 +34,9 @@ std::vector<double> message(const std::vector<double>& evidence, std::size_t rea
     if (falling.front() + reach < bin) {
       falling.pop_front();
     }
-    told[bin] = std::max(evidence[falling.front()] - best, -edge_penalty);
+    outgoing[bin] = std::max(evidence[falling.front()] - best, -edge_penalty);
   }
-  return told;
+  return outgoing;
 }
 
 void add(const std::vector<double>& summand, std::vector<double>& sum) {
@@ -86,9 +86,9 @@ std::vector<MatchedFilter::Result> pool_column(std::span<const std::vector<doubl
   for (std::size_t row = rows; row-- > 0;) {
     std::vector<double> evidence = scores[row];
     if (row + 1 < rows) {
-      const std::vector<double> told = message(from_below, reach, prior.edge_penalty);
-      add(told, beliefs[row]);
-      add(told, evidence);
+      const std::vector<double> incoming = message(from_below, reach, prior.edge_penalty);
+      add(incoming, beliefs[row]);
+      add(incoming, evidence);
     }
     from_below = std::move(evidence);
   }

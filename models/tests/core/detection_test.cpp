@@ -60,7 +60,7 @@ TEST(ColumnStream, BuiltOneByOneIsTheSame) {
   EXPECT_NE(pieces, whole);
 }
 
-TEST(ColumnStream, ClearForgetsRowsAndDetections) {
+TEST(ColumnStream, ClearRemovesRowsAndDetections) {
   ColumnStream stream;
   stream.append_row(std::vector<Detection>{{0, 5}});
   stream.clear();

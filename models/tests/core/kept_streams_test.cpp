@@ -69,11 +69,11 @@ TEST(KeptStreams, AForgottenColumnIsDrawnAnewAndItsMemoryIsFree) {
   constexpr std::size_t kOneColumn = kRows * kDetections * sizeof(Detection);
   KeptStreams kept(source, kOneColumn);
   const ColumnStream first = kept.column(1);
-  kept.forget(1);
-  kept.forget(1);
+  kept.drop(1);
+  kept.drop(1);
   EXPECT_EQ(kept.column(1), first);
   EXPECT_EQ(source.drawn(), 2);
-  kept.forget(1);
+  kept.drop(1);
   (void)kept.column(2);
   (void)kept.column(2);
   EXPECT_EQ(source.drawn(), 3) << "there is memory for one column";

@@ -86,7 +86,7 @@ TEST(InterruptionDeathTest, SignalsStopParallelWorkAfterTheCurrentIndex) {
   EXPECT_EXIT(interrupt_parallel_work(SIGTERM), testing::ExitedWithCode(10), "");
 }
 
-TEST(Progress, AnObserverIsToldInsteadOfStandardError) {
+TEST(Progress, AnObserverReplacesStandardError) {
   testing::internal::CaptureStderr();
   std::size_t last = 0;
   int calls = 0;

@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(ColumnGroups, AreWholeAndKnowWhatIsAskedFor) {
+TEST(ColumnGroups, AreWholeAndMarkTheChosenColumns) {
   const std::vector<int> selected = {9, 2, 4, 5};
   const std::vector<ColumnGroup> groups = column_groups(selected, 4, 10);
   ASSERT_EQ(groups.size(), 3U);

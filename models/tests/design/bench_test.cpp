@@ -46,7 +46,7 @@ TEST(Bench, ColumnsAreAllOrThoseOfThreeParts) {
   EXPECT_EQ(bench_columns(sensor, 1).size(), 2U);
 }
 
-TEST(Bench, MeasuresWhatIsKnownOfTheReadouts) {
+TEST(Bench, MeasuresTheKnownErrorsOfTheReadouts) {
   const BenchSettings settings{.sensor = small_sensor(), .scenes = {Scene::kRoom}, .klux = {2.0, 50.0}};
   const std::vector<ReadoutParameters> readouts = {default_parameters(Readout::kPoolPointer, settings.sensor),
                                                    default_parameters(Readout::kEzPointer, settings.sensor)};

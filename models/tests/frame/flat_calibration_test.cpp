@@ -153,7 +153,7 @@ TEST(FlatCalibration, FrameAndScenesFitTheSameTable) {
 }
 
 // A pair of columns: no other read-out judges its left column.
-TEST(FlatCalibration, ColumnsThatHearEachOtherAreFittedInPairs) {
+TEST(FlatCalibration, ColumnsThatUseEachOtherAreFittedInPairs) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 400;
   const FlatCalibration calibration(sensor);

@@ -68,7 +68,7 @@ double bias(const WalkCorrection& correction, const TargetRun& run) {
   return sum / static_cast<double>(run.measurements.size());
 }
 
-TEST(WalkCorrection, TakesTheWalkOutWhereConfidenceTellsBrightness) {
+TEST(WalkCorrection, RemovesTheWalkWhereConfidenceFollowsBrightness) {
   CounterRandom random(test_seed(), static_cast<std::uint32_t>(RandomPurpose::kTestStream), 0, 0);
   const RangeConverter table = bright_table(random, true);
   const WalkCorrection correction = WalkCorrection::calibrate(walking_runs(random, true), table, kWindow);

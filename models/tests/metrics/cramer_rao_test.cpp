@@ -139,7 +139,7 @@ TEST(CramerRao, PileUpWeightIsSmoothWhereItsFormulaChanges) {
   expect_relative(cramer_rao_bound(below), cramer_rao_bound(above), 2e-4);
 }
 
-TEST(CramerRao, LastBinIsNoDetectionAndTellsNothing) {
+TEST(CramerRao, LastBinIsNoDetectionAndHasNoInformation) {
   // One bin left, [0, 1), and half of the pulse's one sigma in it: rate Phi(0) - Phi(-1), slope phi(-1) -
   // phi(0).
   const PulseObservation one_bin{.signal_events = 1.0,
@@ -237,7 +237,7 @@ TEST(CramerRao, SampledGaussianHasTheGaussiansBound) {
   }
 }
 
-TEST(CramerRao, MeasuredPulseOfOneBoxTellsByItsEdges) {
+TEST(CramerRao, MeasuredPulseOfOneBoxHasItsInformationInTheEdges) {
   // A box of 8 bins at whole bins on background b: each of the four bins that a shift by half a bin touches
   // has |slope| S / 16; two have the rate b + S / 8, two have b.
   PulseObservation o{.signal_events = 0.8,

@@ -204,7 +204,7 @@ INSTANTIATE_TEST_SUITE_P(Models, GoodnessOfFit,
                                            Case{"FastSamplerDark", Model::kFastSampler, 1.0, 0.0}),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
-// What is wrong with the model under test; the judge is told the truth.
+// What is wrong with the model under test; the test has the true model.
 struct Mistake {
   const char* name;
   std::function<void(SensorModel&)> make;

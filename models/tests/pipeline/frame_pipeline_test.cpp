@@ -139,7 +139,7 @@ TEST(FramePipeline, StepByStepIsAtOnce) {
       EXPECT_EQ(some[2 * row], whole.run.results[40 * row + 34]);
       EXPECT_EQ(some[2 * row + 1], whole.run.results[40 * row + 39]);
     }
-    pipeline.forget_photons(34);
+    pipeline.drop_photons(34);
     EXPECT_EQ(pipeline.read(readout.parameters, {34, 39}).results, some);
     const FrameMaps judged = pipeline.judge(whole.run.results, readout);
     EXPECT_EQ(figure_values(judged.figures, true), figure_values(whole.maps.figures, true));
@@ -166,16 +166,16 @@ TEST(FramePipeline, APrecisionTakesFramesUntilItIsReached) {
   EXPECT_TRUE(reached.precision_reached);
 }
 
-TEST(FramePipeline, AnObserverIsToldEveryColumn) {
-  std::vector<std::size_t> told;
+TEST(FramePipeline, AnObserverReceivesEveryColumn) {
+  std::vector<std::size_t> reported;
   const ModelEngine engine({.observer = [&](std::size_t done, std::size_t total) {
     EXPECT_EQ(total, 12U);
-    told.push_back(done);
+    reported.push_back(done);
   }});
   const FramePipeline pipeline(room(), engine, {.region = Region::whole(12, 10)});
   (void)pipeline.measure({sifh(), std::nullopt});
-  ASSERT_EQ(told.size(), 12U);
-  EXPECT_EQ(told.back(), 12U);
+  ASSERT_EQ(reported.size(), 12U);
+  EXPECT_EQ(reported.back(), 12U);
 }
 
 TEST(FramePipeline, AFlagStopsAFrame) {

@@ -102,10 +102,10 @@ TEST(MatchedFilter, MaximumOfTheFormula) {
 }
 
 TEST(MatchedFilter, ReturnsAreBackground) {
-  MatchedFilterParameters told = kPulse;
-  told.returns.assign(1023, 0.0);
+  MatchedFilterParameters with_returns = kPulse;
+  with_returns.returns.assign(1023, 0.0);
   for (std::size_t bin = 20; bin < 60; ++bin) {
-    told.returns[bin] = 0.002 * static_cast<double>(bin - 10);
+    with_returns.returns[bin] = 0.002 * static_cast<double>(bin - 10);
   }
   CounterRandom random(test_seed(), 0, 0, 7);
   std::vector<Detection> detections = random_frame(random, 500.0, 30, 150);
@@ -113,12 +113,13 @@ TEST(MatchedFilter, ReturnsAreBackground) {
     detections.push_back({0, code});
     detections.push_back({1, code});
   }
-  const MatchedFilter::Result result = MatchedFilter(told).estimate(detections);
-  const auto [tau, sum] = brute_force(told, detections, 0.0, 1022.0, 1.0);
+  const MatchedFilter::Result result = MatchedFilter(with_returns).estimate(detections);
+  const auto [tau, sum] = brute_force(with_returns, detections, 0.0, 1022.0, 1.0);
   EXPECT_NEAR(result.position, tau, 1.0);
   EXPECT_NEAR(result.score, sum, 0.01 * sum);
   EXPECT_NEAR(result.position, 500.0, 20.0);
-  EXPECT_LT(MatchedFilter(kPulse).estimate(detections).position, 100.0) << "not told, it takes the crosstalk";
+  EXPECT_LT(MatchedFilter(kPulse).estimate(detections).position, 100.0)
+      << "without the returns, it takes the crosstalk";
 }
 
 TEST(MatchedFilter, ReachesTheSpreadOfTheMeanWithoutBackground) {
@@ -165,12 +166,14 @@ TEST(MatchedFilter, Refusals) {
 TEST(MatchedFilter, RefusesReturnsThatItCannotTake) {
   using testing::HasSubstr;
   using testing::ThrowsMessage;
-  MatchedFilterParameters told = kPulse;
-  told.returns.assign(1024, 0.0);
-  EXPECT_THAT([&] { MatchedFilter{told}; }, ThrowsMessage<InputError>(HasSubstr("returns of 1024 bins")));
-  told.returns.assign(1023, 0.0);
-  told.returns[7] = -1.0;
-  EXPECT_THAT([&] { MatchedFilter{told}; }, ThrowsMessage<InputError>(HasSubstr("returns of bin 7 are -1")));
+  MatchedFilterParameters with_returns = kPulse;
+  with_returns.returns.assign(1024, 0.0);
+  EXPECT_THAT([&] { MatchedFilter{with_returns}; },
+              ThrowsMessage<InputError>(HasSubstr("returns of 1024 bins")));
+  with_returns.returns.assign(1023, 0.0);
+  with_returns.returns[7] = -1.0;
+  EXPECT_THAT([&] { MatchedFilter{with_returns}; },
+              ThrowsMessage<InputError>(HasSubstr("returns of bin 7 are -1")));
 }
 
 TEST(MatchedFilter, MeasuredPulseIsFoundByItsCentroidWhicheverWayItLeans) {

@@ -209,14 +209,14 @@ TEST_F(PoolPointer, TemplatesAsReference) {
         .coarse = is_lean ? 10 : 14, .track = is_lean ? 14 : 20, .lean = is_lean, .second_target = true};
     const auto array = surfaces(10, 2, 1 + pick(draw, 7), 1 + pick(draw, 24), 0.1, 900, draw);
     const PoolNumbers usual = with_cells(is_lean ? Readout::kPoolPointerLean : Readout::kPoolPointer, 9);
-    PoolNumbers told = usual;
+    PoolNumbers compensated = usual;
     for (std::size_t i = 0; i < open.taken.size(); ++i) {
       const std::array<int, 4> kinds = {0, 255, pick(draw, 256), pick(draw, 16)};
       open.taken[i] = kinds[static_cast<std::size_t>(pick(draw, 4))];
-      told.coarse_template[i] = static_cast<std::uint8_t>(open.taken[i]);
+      compensated.coarse_template[i] = static_cast<std::uint8_t>(open.taken[i]);
     }
     expect_as_reference(array, 10, 900, 4, open);
-    changed += read_array(array, 10, 900, told) != read_array(array, 10, 900, usual) ? 1 : 0;
+    changed += read_array(array, 10, 900, compensated) != read_array(array, 10, 900, usual) ? 1 : 0;
   }
   EXPECT_GT(changed, 12U) << "the templates changed nothing";
 }
@@ -464,7 +464,8 @@ TEST_F(PoolPointer, RefusesMalformedStreamsAndParameters) {
   refused([](PoolNumbers& p) { p.rival_moves = 0; }, "OFFSET_BITS must be 0 if RIVAL_MOVES is 0, not 6");
   refused([](PoolNumbers& p) { p.cell_shift = 7; }, "CELL_SHIFT must be 8 to 10, not 7");
   refused([](PoolNumbers& p) { p.labels = 9; }, "LABELS must be 2 to 8, not 9");
-  refused([](PoolNumbers& p) { p.track_share = 60; }, "TRACK_SHARE must be 1 to 49, not 60");
+  refused([](PoolNumbers& p) { p.track_share = 60; },
+          "TRACK_SHARE must be at least 1, and at most 63 together with COARSE_SHARE, not 60");
 }
 
 }  // namespace

@@ -151,17 +151,18 @@ void PoolReference::choose(int c) {
     const Group& g = group({c, r});
     std::vector<int> e = own_evidence({c, r});
     for (std::size_t k = 0; k < e.size(); ++k) {
-      const bool heard = c > 0 && (pixels_.at({c - 1, r}).sure || !open_.left_needs_margin);
-      if (heard && std::abs(g.cell[k] - pixels_.at({c - 1, r}).chosen) > 4) {
+      const bool uses_left = c > 0 && (pixels_.at({c - 1, r}).sure || !open_.left_needs_margin);
+      if (uses_left && std::abs(g.cell[k] - pixels_.at({c - 1, r}).chosen) > 4) {
         e[k] -= 2 + 3 * g.b / 16;
       }
       if (c + 1 < columns_) {
-        const std::vector<int> told = own_evidence({c + 1, r});
-        const auto [p, q] = best_two(told);
+        const std::vector<int> of_neighbour = own_evidence({c + 1, r});
+        const auto [p, q] = best_two(of_neighbour);
         const std::vector<int>& cell = group({c + 1, r}).cell;
         const int most = 1 + 3 * g.b / 16;
         if (std::abs(cell[p] - g.cell[k]) > 4) {
-          e[k] -= std::abs(cell[q] - g.cell[k]) > 4 ? most : std::min(told[p] - told[q], most);
+          e[k] -=
+              std::abs(cell[q] - g.cell[k]) > 4 ? most : std::min(of_neighbour[p] - of_neighbour[q], most);
         }
       }
     }

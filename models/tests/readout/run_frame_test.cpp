@@ -60,8 +60,8 @@ TEST(RunFrame, RowMajorAndTheSameForEveryThreadCount) {
   EXPECT_EQ(run_frame(source, parameters, 5), frame);
 }
 
-// Columns of an engine hear each other, so that a part of a frame needs whole engines.
-TEST(RunFrame, ColumnsThatHearEachOtherAreReadTogether) {
+// Columns of an engine use each other's results, so that a part of a frame needs whole engines.
+TEST(RunFrame, ColumnsThatUseEachOtherAreReadTogether) {
   SCOPED_TRACE(test_seed_message());
   ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer, 10);
   parameters.pool.engine_columns = 4;

@@ -179,7 +179,7 @@ TEST(Tmf882xLog, FramesWithoutAllQuartersAreLeftOut) {
   EXPECT_EQ(read_frames.description, "ams-OSRAM TMF8828, 1 frames of 8 x 8 zones, 5 incomplete left out");
 }
 
-TEST(Tmf882xLog, IsToldByItsLines) {
+TEST(Tmf882xLog, IsRecognisedByItsLines) {
   EXPECT_TRUE(is_tmf882x_log("#Raw,65,0,1"));
   EXPECT_TRUE(is_tmf882x_log("\xEF\xBB\xBF#Raw,65,0,1"));
   EXPECT_TRUE(is_tmf882x_log("hello\r\n#Cal,65,0,1"));

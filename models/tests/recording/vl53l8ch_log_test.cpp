@@ -136,7 +136,7 @@ TEST(Vl53l8chLog, LinesOfTheDriversExampleAreFrames) {
   EXPECT_THAT(cube.true_distance, Each(IsNan()));
 }
 
-TEST(Vl53l8chLog, IsToldByItsLines) {
+TEST(Vl53l8chLog, IsRecognisedByItsLines) {
   EXPECT_TRUE(is_vl53l8ch_log("a,cnh__hist_bin_0_a0\n"));
   EXPECT_TRUE(
       is_vl53l8ch_log("\xEF\xBB\xBF"

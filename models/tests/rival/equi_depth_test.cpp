@@ -69,7 +69,7 @@ TEST(Hierarchical, LevelsFollowEachOther) {
   EXPECT_EQ(four->bits_per_pixel(), 3 * 4);
   EXPECT_THAT(read_one_frame(*four, {}), ElementsAre(4, 8, 12));
   EXPECT_THAT(read_one_frame(*four, at({{0, 14}, {1, 14}})), ElementsAre(5, 10, 13));
-  // In the second level 14 is beyond the middle: the left boundary does not hear it.
+  // In the second level 14 is beyond the middle: the left boundary does not count it.
   EXPECT_THAT(read_one_frame(*four, at({{0, 14}, {1, 14}, {2, 14}, {3, 1}})), ElementsAre(4, 10, 14));
 }
 

@@ -266,7 +266,7 @@ TEST(TwoCorrelations, MovesTowardsEachDetection) {
   EXPECT_THAT(read_one_frame(*rival, one_each(many)), Each(Le(15)));
 }
 
-TEST(TwoCorrelations, ForgetsWhatIsLongPast) {
+TEST(TwoCorrelations, OldDetectionsLoseTheirWeight) {
   SensorModel sensor;
   sensor.acquisitions = 5000;
   const std::unique_ptr<Rival> rival = make_two_correlations(sensor, 8);

@@ -32,12 +32,12 @@ TEST(FaultStudy, FaultsStayWhereTheyAre) {
   }
 }
 
-TEST(FaultStudy, AnSramAcrossABorderIsHeardByBothEngines) {
-  EXPECT_EQ(heard_by({4, 4}, 6, 12), (ColumnRange{0, 12}));
-  EXPECT_EQ(heard_by({0, 4}, 6, 12), (ColumnRange{0, 6}));
-  EXPECT_EQ(heard_by({8, 4}, 6, 12), (ColumnRange{6, 6}));
-  EXPECT_EQ(heard_by({8, 2}, 8, 10), (ColumnRange{8, 2}));
-  EXPECT_EQ(heard_by({5, 1}, 1, 12), (ColumnRange{5, 1}));
+TEST(FaultStudy, AnSramAcrossABorderAffectsBothEngines) {
+  EXPECT_EQ(affected_columns({4, 4}, 6, 12), (ColumnRange{0, 12}));
+  EXPECT_EQ(affected_columns({0, 4}, 6, 12), (ColumnRange{0, 6}));
+  EXPECT_EQ(affected_columns({8, 4}, 6, 12), (ColumnRange{6, 6}));
+  EXPECT_EQ(affected_columns({8, 2}, 8, 10), (ColumnRange{8, 2}));
+  EXPECT_EQ(affected_columns({5, 1}, 1, 12), (ColumnRange{5, 1}));
 }
 
 TEST(FaultStudy, StuckTimestampsAreSeenInTheirColumn) {

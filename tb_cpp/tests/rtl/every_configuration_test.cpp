@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(Compiled, EveryCounter, testing::ValuesIn(counting_conf
 
 // One pixel of the last column has a bin that gets full in the last acquisition of the first pass, or misses
 // that by one.
-TEST_P(EveryCounter, TellsOfTheFirstFullOneAlone) {
+TEST_P(EveryCounter, ReportsTheFirstFullOneAlone) {
   RtlReadout rtl(GetParam());
   const std::uint32_t acquisitions = frame_of(most_);
   ASSERT_LT(acquisitions, 65536U);

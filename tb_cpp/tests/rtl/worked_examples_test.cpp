@@ -16,8 +16,8 @@ using testing::ElementsAre;
 // Clocks from the control to the columns: BROADCAST_STAGES of the models here.
 constexpr std::size_t kWayClocks = 2;
 
-// Follows a frame: the states in order, and the SRAM as it stands when a state ends, as the columns hear of
-// it.
+// Follows a frame: the states in order, and the SRAM as it stands when a state ends, as the columns receive
+// the state.
 class Follower {
  public:
   void operator()(const RtlCycle& clock) {
@@ -28,12 +28,12 @@ class Follower {
     if (on_the_way_.size() > kWayClocks + 1) {
       on_the_way_.pop_front();
     }
-    const RtlState heard = on_the_way_.front();
+    const RtlState in_columns = on_the_way_.front();
     if (clock.sram_write) {
       memory_[clock.sram_address] = clock.sram_data;
-      writes_[heard].push_back(clock.sram_data);
+      writes_[in_columns].push_back(clock.sram_data);
     }
-    at_end_of_[heard] = memory_;
+    at_end_of_[in_columns] = memory_;
   }
 
   using Memory = std::map<int, int>;

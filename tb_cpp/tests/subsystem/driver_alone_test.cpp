@@ -35,7 +35,7 @@ bool memory_write(void* context, std::uint32_t offset, std::uint32_t value) {
   return memory.accesses_left-- > 0;
 }
 
-TEST(DriverAlone, TellsWhatItDoesNotFind) {
+TEST(DriverAlone, ReportsWhatItDoesNotFind) {
   Memory memory;
   dtof_device device{};
   const dtof_bus bus = {&memory, memory_read, memory_write};
@@ -78,7 +78,7 @@ TEST(DriverAlone, TakesTheScheduleFromTheRegistersAtAnyNumberOfAcquisitions) {
   }
 }
 
-TEST(DriverAlone, TellsWhenTheBusFails) {
+TEST(DriverAlone, ReportsABusThatFails) {
   Memory memory;
   dtof_device device{};
   const dtof_bus bus = {&memory, memory_read, memory_write};
@@ -165,7 +165,7 @@ TEST(DriverAlone, GivesUpWhenAnAbortDoesNothing) {
   EXPECT_EQ(dtof_set_watchdog(&device, 1), DTOF_BUS);
 }
 
-TEST(DriverAlone, TellsWhenAFrameWasAborted) {
+TEST(DriverAlone, ReportsAnAbortedFrame) {
   Memory memory;
   dtof_device device{};
   ASSERT_EQ(dtof_probe(&device, {&memory, memory_read, memory_write}), DTOF_OK);  // 2 columns of 3 rows
@@ -176,7 +176,7 @@ TEST(DriverAlone, TellsWhenAFrameWasAborted) {
   EXPECT_EQ(dtof_unpack_frame(&device, words.data(), 2, results.data()), DTOF_STREAM);
 }
 
-TEST(DriverAlone, TellsWhenAFrameIsNotWhole) {
+TEST(DriverAlone, ReportsAnIncompleteFrame) {
   Memory memory;
   dtof_device device{};
   ASSERT_EQ(dtof_probe(&device, {&memory, memory_read, memory_write}), DTOF_OK);  // 2 columns of 3 rows
@@ -225,7 +225,7 @@ TEST(DriverAlone, TakesASecondTargetOfEveryPixelOrOfNone) {
   EXPECT_TRUE(refused([](auto& changed) { changed[1] = changed[0]; })) << "no second";
 }
 
-TEST(DriverAlone, KnowsTheOrderOfEngines) {
+TEST(DriverAlone, FollowsTheOrderOfEngines) {
   for (const auto& [rows, columns, of_engine] :
        {std::array{3, 7, 3}, std::array{2, 6, 3}, std::array{4, 2, 5}, std::array{1, 1, 34},
         std::array{160, 200, 34}}) {

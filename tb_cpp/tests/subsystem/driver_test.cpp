@@ -69,9 +69,9 @@ TEST_P(Driver, FindsWhatIsThere) {
                                                                                   .pointer_shift = 0,
                                                                                   .rival_moves = false,
                                                                                   .cell_shift = 0,
+                                                                                  .engine_columns = 0,
                                                                                   .coarse_share = 0,
-                                                                                  .track_share = 0,
-                                                                                  .engine_columns = 0};
+                                                                                  .track_share = 0};
   EXPECT_EQ(device_.group_size, pool.group_size);
   EXPECT_EQ(device_.labels, pool.labels);
   EXPECT_EQ(device_.score_bits, pool.score_bits);
@@ -227,7 +227,7 @@ TEST_P(DriverFrames, AreReadInMillimetres) {
   }
 }
 
-TEST_P(Driver, KnowsTheOrderOfTheStream) {
+TEST_P(Driver, FollowsTheOrderOfTheStream) {
   std::size_t index = 0;
   std::uint16_t row = 0;
   std::uint16_t column = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes wrong at dtof_subsystem: it is told, and the next frame is right.
+// What goes wrong at dtof_subsystem: the subsystem reports it, and the next frame is right.
 #include <gtest/gtest.h>
 
 #include "tests/subsystem/subsystem_test_support.hpp"
@@ -52,7 +52,7 @@ TEST_P(SubsystemErrors, AnUnderrunLosesTheRestOfItsAcquisitionAlone) {
     write_settings(bench_, settings);
     bench_.set(DTOF_RELEASE, 1 + random() % 3);
     std::vector<Line> lines = make_lines(bench_.configuration(), settings.acquisitions, random);
-    for (Line& line : lines) {  // a dark line could not be told from one that is missing
+    for (Line& line : lines) {  // a dark line would look like a missing line
       line.back() = static_cast<Timestamp>(pick(random, bench_.configuration().parameters.code_count() - 1));
     }
     push_lines(bench_, lines);
@@ -92,7 +92,7 @@ TEST_P(SubsystemErrors, AWholeAcquisitionNeverRunsEmpty) {
   EXPECT_EQ(take_errors(), 0U);
 }
 
-TEST_P(SubsystemErrors, AStartWhileBusyIsIgnoredAndTold) {
+TEST_P(SubsystemErrors, AStartWhileBusyIsIgnoredAndReported) {
   bench_.set(DTOF_IRQ_ENABLE, DTOF_IRQ_ENABLE_ERROR_MASK);
   CounterRandom random = this->random(7);
   FrameSettings settings{.acquisitions = 3, .gate = {0, 0}, .weak_below = 0, .enabled = {}};
@@ -210,7 +210,7 @@ TEST_P(SubsystemErrors, InterruptsAreClearedOneByOne) {
   }
 }
 
-TEST_P(SubsystemErrors, AnOverrunIsTold) {
+TEST_P(SubsystemErrors, AnOverrunIsReported) {
   CounterRandom random = this->random(11);
   FrameSettings settings{.acquisitions = 2, .gate = {0, 0}, .weak_below = 0, .enabled = {}};
   settings.gate.end = bench_.configuration().parameters.no_detection();
@@ -232,7 +232,7 @@ TEST_P(SubsystemErrors, AnOverrunIsTold) {
   }
 }
 
-TEST_P(SubsystemErrors, AMisframedSourceIsToldAndFlushed) {
+TEST_P(SubsystemErrors, AMisframedSourceIsReportedAndFlushed) {
   CounterRandom random = this->random(12);
   const std::vector<Line> lines = make_lines(bench_.configuration(), 1, random);
   bench_.source().push(lines[0], true);
@@ -247,7 +247,7 @@ TEST_P(SubsystemErrors, AMisframedSourceIsToldAndFlushed) {
   EXPECT_EQ(take_errors() & ~DTOF_ERROR_OVERRUN_MASK, 0U);
 }
 
-TEST_P(SubsystemErrors, AMissingLastLineIsTold) {
+TEST_P(SubsystemErrors, AMissingLastLineIsReported) {
   CounterRandom random = this->random(15);
   FrameSettings settings{.acquisitions = 1, .gate = {0, 0}, .weak_below = 0, .enabled = {}};
   settings.gate.end = bench_.configuration().parameters.no_detection();
@@ -262,7 +262,7 @@ TEST_P(SubsystemErrors, AMissingLastLineIsTold) {
   EXPECT_EQ(take_errors(), DTOF_ERROR_MISFRAMED_MASK);
 }
 
-TEST_P(SubsystemErrors, AFlushDuringAFrameIsIgnoredAndTold) {
+TEST_P(SubsystemErrors, AFlushDuringAFrameIsIgnoredAndReported) {
   CounterRandom random = this->random(14);
   FrameSettings settings{.acquisitions = 3, .gate = {0, 0}, .weak_below = 0, .enabled = {}};
   write_settings(bench_, settings);

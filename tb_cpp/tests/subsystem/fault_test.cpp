@@ -133,7 +133,7 @@ TEST_P(StreamFaults, ASourceWithoutTlastIsTimedOut) {
   expect_registers();
 }
 
-TEST_P(StreamFaults, ASinkThatStopsIsToldAndAborted) {
+TEST_P(StreamFaults, ASinkThatStopsIsReportedAndAborted) {
   CounterRandom random = this->random(34);
   for (const bool at_once : {false, true}) {
     SCOPED_TRACE(testing::Message() << "sink stops " << (at_once ? "at once" : "in mid frame"));

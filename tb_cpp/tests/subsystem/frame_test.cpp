@@ -165,7 +165,7 @@ bool has_counters(const ReadoutParameters& parameters) {
   return has_histogram(parameters.readout) && !is_pool_readout(parameters.readout);
 }
 
-TEST_P(SubsystemFrames, TellWhichCountersAreFull) {
+TEST_P(SubsystemFrames, ReportWhichCountersAreFull) {
   const RtlConfiguration& configuration = bench_.configuration();
   const ReadoutParameters& parameters = configuration.parameters;
   constexpr std::uint32_t kAcquisitions = kAcquisitionsThatFillACounter;
@@ -216,7 +216,7 @@ std::vector<Line> lines_with_detections(const RtlConfiguration& configuration, s
 }
 
 // No result shows a counter that is full in the first of several passes.
-TEST_P(SubsystemFrames, TellOfFullCountersOfAnyPass) {
+TEST_P(SubsystemFrames, ReportFullCountersOfAnyPass) {
   const RtlConfiguration& configuration = bench_.configuration();
   const ReadoutParameters& parameters = configuration.parameters;
   const std::uint32_t acquisitions = acquisitions_to_fill_a_counter(parameters);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parity of the subsystem's own memories: bits that change in the line buffer and in the raster buffer are
-// told, and nothing else is.
+// reported, and nothing else is.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -65,7 +65,7 @@ TEST_P(Parity, IsQuietWhileNothingChanges) {
   }
 }
 
-TEST_P(Parity, OfALineTellsEachWordOnce) {
+TEST_P(Parity, OfALineReportsEachWordOnce) {
   if (!has_parity()) {
     EXPECT_FALSE(sram("u_line_buffer").has_value()) << "SRAMs are writable where there is parity";
     return;
@@ -110,7 +110,7 @@ TEST_P(Parity, OfALineTellsEachWordOnce) {
   }
 }
 
-TEST_P(Parity, OfAResultTellsEveryBit) {
+TEST_P(Parity, OfAResultReportsEveryBit) {
   const bool raster = (bench_.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0;
   if (!has_parity() || !raster) {
     return;

@@ -29,9 +29,9 @@ class Shots : public Subsystem {
   // A sensor with one acquisition at a time: its lines come `latency` clocks behind the shot.
   struct Sensor {
     std::uint64_t latency = 1;
-    double miss_probability = 0.0;  // a shot that it does not answer
+    double miss_probability = 0.0;  // a shot without lines
     std::deque<Line> lines;         // of the acquisitions to come
-    std::optional<std::uint64_t> answers_in;
+    std::optional<std::uint64_t> clocks_until_lines;
     std::size_t taken = 0;  // shots
     std::size_t missed = 0;
   };
@@ -53,8 +53,8 @@ class Shots : public Subsystem {
 
   // A clock, and what the sensor does in it.
   void clock(CounterRandom& random) {
-    if (sensor_.answers_in && (*sensor_.answers_in)-- == 0) {
-      sensor_.answers_in.reset();
+    if (sensor_.clocks_until_lines && (*sensor_.clocks_until_lines)-- == 0) {
+      sensor_.clocks_until_lines.reset();
       for (std::size_t i = 0; i < bench_.acquisition_lines() && !sensor_.lines.empty(); ++i) {
         bench_.source().push(sensor_.lines.front(), i + 1 == bench_.acquisition_lines());
         sensor_.lines.pop_front();
@@ -64,13 +64,13 @@ class Shots : public Subsystem {
     if (!bench_.shot()) {
       return;
     }
-    EXPECT_FALSE(sensor_.answers_in) << "a shot while the sensor measures";
+    EXPECT_FALSE(sensor_.clocks_until_lines) << "a shot while the sensor measures";
     ++sensor_.taken;
     if (random.uniform() < sensor_.miss_probability) {
       ++sensor_.missed;
       return;
     }
-    sensor_.answers_in = sensor_.latency;
+    sensor_.clocks_until_lines = sensor_.latency;
   }
 
   void clock_until_idle(CounterRandom& random) {
@@ -351,7 +351,7 @@ TEST_P(Shots, EndWithTheirFrame) {
     timeouts += bench_.events().timeout ? 1 : 0;
     aborted += bench_.events().aborted ? 1 : 0;
     bench_.events() = {};
-    sensor_.answers_in.reset();
+    sensor_.clocks_until_lines.reset();
     sensor_.lines.clear();
     sensor_.miss_probability = 0.0;
     bench_.source().reset();
