@@ -43,6 +43,8 @@ constexpr auto kEntries = std::to_array<ParameterEntry>({
         "windows of a settled pointer: 8 for pulses below 0.75 coarse bins (FWHM), 10 from 2.25"),
     entry<&PoolPointerParameters::second_target>("SECOND_TARGET",
         "1: a result has the position of the label that lost, too"),
+    entry<&PoolPointerParameters::amplitude>("AMPLITUDE",
+        "1: a result has amplitude and ambient, too"),
     entry<&PoolPointerParameters::prior>("PRIOR",
         "1: candidates may begin from those that were used in the last frame (`prior_i`)"),
     entry<&PoolPointerParameters::engine_columns>("ENGINE_COLUMNS",

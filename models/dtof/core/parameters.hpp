@@ -39,6 +39,7 @@ struct PoolPointerParameters {
   /// CELL_SHIFT: cells around a settled pointer have 2^cell_shift positions; 8 .. 10.
   int cell_shift = 9;
   bool second_target = false;  ///< SECOND_TARGET: a result also has the position of the losing label
+  bool amplitude = false;      ///< AMPLITUDE: a result also has amplitude and ambient
   /// PRIOR: the array keeps the candidates that a frame used, as a prior for the next frame.
   bool prior = false;
   int coarse_share = 14;  ///< COARSE_SHARE: length of the coarse phase, 64ths of the frame

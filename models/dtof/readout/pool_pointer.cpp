@@ -173,6 +173,7 @@ PoolWinners start_together(std::vector<PoolPointerWord>& words, std::size_t colu
   for (std::size_t row = 0; row < words.size(); ++row) {
     alone.push_back({.position = words[row].pointer,
                      .lost = 0,
+                     .advantage = words[row].advantage,
                      .margin = words[row].advantage,
                      .background = groups.at(column, row).background});
   }
@@ -287,6 +288,7 @@ PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column
     const PoolGroup& group = groups.at(column, row);
     winners.push_back({.position = chain[row].position[winner],
                        .lost = chain[row].position[1 - winner],
+                       .advantage = winner == 0 ? words[row].advantage : 0,
                        .margin = margin,
                        .background = group.background,
                        .significance = significance_near(group, chain[row].position[winner], parameters),
@@ -330,6 +332,7 @@ PoolPointerParameters PoolNumbers::common() const {
           .rival_moves = rival_moves != 0,
           .cell_shift = cell_shift,
           .second_target = second_target,
+          .amplitude = amplitude,
           .prior = keeps_prior,
           .coarse_share = coarse_share,
           .track_share = track_share,
@@ -584,6 +587,10 @@ std::vector<std::vector<PixelResult>> run_pool_pointer(int count, const ColumnRe
         if (parameters.second_target) {
           result.second = pool_word(winner.lost, fraction_bits);
         }
+        if (parameters.amplitude) {
+          result.amplitude = static_cast<std::uint16_t>(pool_amplitude(winner.advantage, parameters.count_bits));
+          result.ambient = static_cast<std::uint16_t>(winner.background);
+        }
         pixels.push_back(result);
       }
     }
@@ -643,7 +650,8 @@ PoolNumbers pool_pointer_parameters(const ReadoutParameters& parameters) {
                         .smooth_reach = smooth_reach_of(parameters.pool.cell_shift),
                         .coarse_template = parameters.pool.coarse_template,
                         .keeps_prior = parameters.pool.prior,
-                        .second_target = parameters.pool.second_target};
+                        .second_target = parameters.pool.second_target,
+                        .amplitude = parameters.pool.amplitude};
   own.validate();
   return own;
 }
