@@ -40,7 +40,7 @@ module dtof_pool_light #(
       last_q <= this_q;
     end
     if (take_position_i) begin
-      below_q <= last_q & ~LIGHT_WIDTH'({ADVANTAGE_WIDTH{rival_wins_i}});
+      below_q <= {last_q[LIGHT_WIDTH-1:ADVANTAGE_WIDTH], last_q[ADVANTAGE_WIDTH-1:0] & {ADVANTAGE_WIDTH{!rival_wins_i}}};
       centre_q <= below_q;
     end
     if (take_result_i) begin

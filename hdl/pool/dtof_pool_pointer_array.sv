@@ -729,12 +729,17 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
       localparam int LOST_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH - KEPT_WIDTH;
       localparam int AMPLITUDE_WIDTH = dtof_pkg::pool_amplitude_width(ADVANTAGE_WIDTH);
       logic [dtof_pkg::POOL_BACKGROUND_WIDTH-1:0] ambient;
-      logic [AMPLITUDE_WIDTH-1:0] amplitude;
+      logic [9:0] amplitude;
       // The low bits that the group's word does not store are replaced by the middle of their range.
       assign ambient = (dtof_pkg::POOL_BACKGROUND_WIDTH'(sent_result[DEPTH_WIDTH+ADVANTAGE_WIDTH+:KEPT_WIDTH]) << LOST_WIDTH)
           | dtof_pkg::POOL_BACKGROUND_WIDTH'((1 << LOST_WIDTH) >> 1);
-      assign amplitude = AMPLITUDE_WIDTH'(dtof_pkg::pool_amplitude(ADVANTAGE_WIDTH, 7'(sent_result[DEPTH_WIDTH+:ADVANTAGE_WIDTH])));
-      assign result_tdata_o = {sent_result[SENT_RESULT_WIDTH+:COLUMN_WIDTH+ROW_WIDTH], ambient, amplitude, sent_result[DEPTH_WIDTH-1:0]};
+      assign amplitude = dtof_pkg::pool_amplitude(ADVANTAGE_WIDTH, 7'(sent_result[DEPTH_WIDTH+:ADVANTAGE_WIDTH]));
+      assign result_tdata_o = {sent_result[SENT_RESULT_WIDTH+:COLUMN_WIDTH+ROW_WIDTH], ambient, amplitude[AMPLITUDE_WIDTH-1:0],
+                               sent_result[DEPTH_WIDTH-1:0]};
+      if (AMPLITUDE_WIDTH < 10) begin : g_unused
+        logic unused_amplitude;
+        assign unused_amplitude = ^amplitude[9:AMPLITUDE_WIDTH];
+      end
     end else begin : g_depth_alone
       assign result_tdata_o = sent_result;
     end

@@ -324,16 +324,15 @@ class RtlReadout::Simulation {
 
   void observe_result() {
     require(*ports_.result_valid != 0, "result_tvalid_o fell before tready");
-    const Beat beat = {
-        .column = *ports_.result_column,
-        .row = *ports_.result_row,
-        .result = {.code = *ports_.result_code,
-                   .fraction = *ports_.result_fraction,
-                   .confidence = *ports_.result_confidence,
-                   .second = value_of(ports_.result_second),
-                   .amplitude = value_of(ports_.result_amplitude),
-                   .ambient = value_of(ports_.result_ambient)},
-        .last = *ports_.result_last != 0};
+    const Beat beat = {.column = *ports_.result_column,
+                       .row = *ports_.result_row,
+                       .result = {.code = *ports_.result_code,
+                                  .fraction = *ports_.result_fraction,
+                                  .confidence = *ports_.result_confidence,
+                                  .second = value_of(ports_.result_second),
+                                  .amplitude = value_of(ports_.result_amplitude),
+                                  .ambient = value_of(ports_.result_ambient)},
+                       .last = *ports_.result_last != 0};
     require(!pending_beat_ || beat == last_beat_, "result_tdata_o changed before tready");
     last_beat_ = beat;
     pending_beat_ = *ports_.result_ready == 0;

@@ -588,7 +588,8 @@ std::vector<std::vector<PixelResult>> run_pool_pointer(int count, const ColumnRe
           result.second = pool_word(winner.lost, fraction_bits);
         }
         if (parameters.amplitude) {
-          result.amplitude = static_cast<std::uint16_t>(pool_amplitude(winner.advantage, parameters.count_bits));
+          result.amplitude =
+              static_cast<std::uint16_t>(pool_amplitude(winner.advantage, parameters.count_bits));
           result.ambient = static_cast<std::uint16_t>(winner.background);
         }
         pixels.push_back(result);

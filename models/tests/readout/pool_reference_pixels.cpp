@@ -364,7 +364,8 @@ PixelResult PoolReference::result(Place place) {
   const int scale = 1 << (16 - np_);
   const auto limited = [&](int x) { return std::clamp(x - scale / 2, 0, 65536 - scale - 1); };
   const int word = limited(position);
-  return {static_cast<std::uint16_t>(word / scale), static_cast<std::uint16_t>(word % scale),
+  return {static_cast<std::uint16_t>(word / scale),
+          static_cast<std::uint16_t>(word % scale),
           static_cast<std::uint16_t>(confidence(place)),
           static_cast<std::uint16_t>(open_.second_target ? limited(pixel.loser) : 0),
           static_cast<std::uint16_t>(open_.amplitude && pixel.margin >= 0 ? counts(pixel.n) : 0),

@@ -22,10 +22,11 @@ std::uint64_t word_of(const ResultFields& fields, bool amplitude) {
       amplitude ? field(fields.amplitude, 32) | field(fields.ambient, 44)
                 : field(fields.row, DTOF_RESULT_ROW_LSB) | field(fields.column, DTOF_RESULT_COLUMN_LSB);
   return field(fields.position, DTOF_RESULT_POSITION_LSB) |
-         field(fields.confidence, DTOF_RESULT_CONFIDENCE_LSB) | place | (fields.valid ? DTOF_RESULT_VALID_MASK : 0) |
-         (fields.weak ? DTOF_RESULT_WEAK_MASK : 0) | (fields.empty ? DTOF_RESULT_EMPTY_MASK : 0) |
-         (fields.masked ? DTOF_RESULT_MASKED_MASK : 0) | (fields.saturated ? DTOF_RESULT_SATURATED_MASK : 0) |
-         (fields.second ? DTOF_RESULT_SECOND_MASK : 0) | (fields.raw ? DTOF_RESULT_RAW_MASK : 0);
+         field(fields.confidence, DTOF_RESULT_CONFIDENCE_LSB) | place |
+         (fields.valid ? DTOF_RESULT_VALID_MASK : 0) | (fields.weak ? DTOF_RESULT_WEAK_MASK : 0) |
+         (fields.empty ? DTOF_RESULT_EMPTY_MASK : 0) | (fields.masked ? DTOF_RESULT_MASKED_MASK : 0) |
+         (fields.saturated ? DTOF_RESULT_SATURATED_MASK : 0) | (fields.second ? DTOF_RESULT_SECOND_MASK : 0) |
+         (fields.raw ? DTOF_RESULT_RAW_MASK : 0);
 }
 
 std::vector<Line> self_test_lines(const RtlConfiguration& configuration, std::uint32_t acquisitions,

@@ -45,8 +45,8 @@ inline void PrintTo(const ResultFields& fields, std::ostream* stream) {
           << " confidence " << fields.confidence << (fields.valid ? " valid" : "")
           << (fields.weak ? " weak" : "") << (fields.empty ? " empty" : "")
           << (fields.masked ? " masked" : "") << (fields.saturated ? " saturated" : "")
-          << (fields.second ? " second" : "") << (fields.raw ? " raw" : "")
-          << " amplitude " << fields.amplitude << " ambient " << fields.ambient;
+          << (fields.second ? " second" : "") << (fields.raw ? " raw" : "") << " amplitude "
+          << fields.amplitude << " ambient " << fields.ambient;
 }
 
 inline ResultFields fields_of(std::uint64_t word) {
