@@ -190,8 +190,8 @@ TEST_F(PoolAmplitude, CountsTheTargetsLight) {
   }
   CounterRandom draw = random(which);
   const auto bright = flat_target({0.6, 0.0}, 4000, draw);
-  EXPECT_EQ(measured(bright, 4000, Readout::kPoolPointer, 8, 8).amplitude, 688.0) << "the largest";
-  EXPECT_EQ(measured(bright, 4000, Readout::kPoolPointerLean, 8, 8).amplitude, 72.0);
+  EXPECT_NEAR(measured(bright, 4000, Readout::kPoolPointer, 8, 8).amplitude, 688.0, 2.0) << "the largest";
+  EXPECT_NEAR(measured(bright, 4000, Readout::kPoolPointerLean, 8, 8).amplitude, 72.0, 1.0);
 }
 
 TEST_F(PoolAmplitude, OfLeanCountsWeakLight) {

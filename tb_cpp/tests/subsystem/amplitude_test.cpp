@@ -28,6 +28,19 @@ class AmplitudeWords : public Subsystem {
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
   }
 
+  /// Lines of pixels that see background alone.
+  std::vector<Line> ambient_lines(std::uint32_t acquisitions, CounterRandom& random) {
+    const RtlConfiguration& configuration = bench_.configuration();
+    std::vector<Line> lines = dark_lines(configuration, acquisitions);
+    for (std::size_t column = 0; column < static_cast<std::size_t>(configuration.sram_num); ++column) {
+      for (std::size_t row = 0; row < static_cast<std::size_t>(configuration.pixels_per_sram); ++row) {
+        put_pixel(lines, configuration, column, row,
+                  make_stream(StreamKind::kUniform, configuration.parameters, acquisitions, random));
+      }
+    }
+    return lines;
+  }
+
   const std::vector<std::uint64_t>& run(const FrameSettings& settings, const std::vector<Line>& lines) {
     start(settings, lines);
     bench_.wait_for_frames(1);
@@ -55,10 +68,10 @@ TEST_P(AmplitudeWords, DifferInRowAndColumnAlone) {
   int amplitudes = 0;
   int ambients = 0;
   for (const bool second : {false, true}) {
-    FrameSettings settings = everything_counts(150);
+    FrameSettings settings = everything_counts(300);
     settings.second_target = second;
     settings.enabled[random() % settings.enabled.size()] = false;
-    const std::vector<Line> lines = bright_lines(bench_.configuration(), settings.acquisitions, random);
+    const std::vector<Line> lines = ambient_lines(settings.acquisitions, random);
     settings.amplitude = false;
     const std::vector<std::uint64_t> words = run(settings, lines);
     const std::uint32_t cycles = bench_.get(DTOF_FRAME_CYCLES);
