@@ -8,7 +8,7 @@
 #                 [WRITABLE_SRAMS] [WAVEFORM] TARGET <library>)
 #   dtof_verilate(<name> READOUT poolpointer|poolpointer-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n] [COUNT_WIDTH n]
 #                 [GROUP_SIZE n] [LABELS n] [SCORE_BITS n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
-#                 [RIVAL_MOVES 0|1] [CELL_SHIFT n] [SECOND_TARGET 0|1] [PRIOR 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n]
+#                 [RIVAL_MOVES 0|1] [CELL_SHIFT n] [SECOND_TARGET 0|1] [AMPLITUDE 0|1] [PRIOR 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n]
 #                 [TRACK_SHARE n]
 #                 [WRITABLE_SRAMS] [WAVEFORM] TARGET <library>)
 #

@@ -67,6 +67,7 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
   device->has_raw_histogram = FIELD(values[READOUT], DTOF_READOUT_RAW_HISTOGRAM) != 0;
   device->raw_bins = FIELD(values[RAW_BINS], DTOF_RAW_BINS_VALUE);
   device->has_second_target = FIELD(values[READOUT], DTOF_READOUT_SECOND_TARGET) != 0;
+  device->has_amplitude = FIELD(values[READOUT], DTOF_READOUT_AMPLITUDE) != 0;
   device->has_prior = FIELD(values[READOUT], DTOF_READOUT_PRIOR) != 0;
   device->has_parity = FIELD(values[READOUT], DTOF_READOUT_PARITY) != 0;
   device->has_self_test = FIELD(values[READOUT], DTOF_READOUT_SELF_TEST) != 0;
@@ -122,7 +123,8 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
       settings->shot_bits > (DTOF_SHOT_BITS_MASK >> DTOF_SHOT_BITS_LSB) ||
       (device->has_gate && (settings->gate_begin > codes || settings->gate_end > codes)) ||
       (device->has_schedule && shares > WHOLE_FRAME) ||
-      (settings->second_target && !device->has_second_target) || (settings->prior && !device->has_prior) ||
+      (settings->second_target && !device->has_second_target) ||
+      (settings->amplitude && !device->has_amplitude) || (settings->prior && !device->has_prior) ||
       (settings->raw && (!device->has_raw_histogram || settings->raw_first_row > settings->raw_last_row ||
                          settings->raw_last_row >= device->rows))) {
     return DTOF_ARGUMENT;
@@ -152,6 +154,7 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
            (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U) |
            (settings->smooth && device->has_schedule ? DTOF_OUTPUT_SMOOTH_MASK : 0U) |
            (settings->prior ? DTOF_OUTPUT_PRIOR_MASK : 0U) |
+           (settings->amplitude ? DTOF_OUTPUT_AMPLITUDE_MASK : 0U) |
            (settings->short_words ? DTOF_OUTPUT_SHORT_WORDS_MASK : 0U),
        true},
       {DTOF_RAW_ROWS,
@@ -355,6 +358,23 @@ dtof_status dtof_take_interrupts(const dtof_device *device, uint32_t *causes) {
   return take(device, DTOF_IRQ_STATUS, causes);
 }
 
+/* The fields that each word of 64 bits of a first target has. */
+static void take_fields(uint64_t word, dtof_result *result) {
+  result->position = (uint16_t)FIELD(word, DTOF_RESULT_POSITION);
+  result->confidence = (uint16_t)FIELD(word, DTOF_RESULT_CONFIDENCE);
+  result->valid = FIELD(word, DTOF_RESULT_VALID) != 0;
+  result->weak = FIELD(word, DTOF_RESULT_WEAK) != 0;
+  result->empty = FIELD(word, DTOF_RESULT_EMPTY) != 0;
+  result->masked = FIELD(word, DTOF_RESULT_MASKED) != 0;
+  result->saturated = FIELD(word, DTOF_RESULT_SATURATED) != 0;
+  result->raw = FIELD(word, DTOF_RESULT_RAW) != 0;
+  result->has_second = false;
+  result->second_position = 0;
+  result->has_amplitude = false;
+  result->amplitude = 0;
+  result->ambient = 0;
+}
+
 dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *result) {
   if (FIELD(word, DTOF_RESULT_ABORTED) != 0) {
     return DTOF_ABORTED;
@@ -368,16 +388,7 @@ dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *r
   }
   result->row = (uint16_t)FIELD(word, DTOF_RESULT_ROW);
   result->column = (uint16_t)FIELD(word, DTOF_RESULT_COLUMN);
-  result->position = (uint16_t)FIELD(word, DTOF_RESULT_POSITION);
-  result->confidence = (uint16_t)FIELD(word, DTOF_RESULT_CONFIDENCE);
-  result->valid = FIELD(word, DTOF_RESULT_VALID) != 0;
-  result->weak = FIELD(word, DTOF_RESULT_WEAK) != 0;
-  result->empty = FIELD(word, DTOF_RESULT_EMPTY) != 0;
-  result->masked = FIELD(word, DTOF_RESULT_MASKED) != 0;
-  result->saturated = FIELD(word, DTOF_RESULT_SATURATED) != 0;
-  result->raw = FIELD(word, DTOF_RESULT_RAW) != 0;
-  result->has_second = false;
-  result->second_position = 0;
+  take_fields(word, result);
   return result->row < device->rows && result->column < device->columns ? DTOF_OK : DTOF_STREAM;
 }
 
@@ -441,6 +452,50 @@ dtof_status dtof_pixel_at(const dtof_device *device, size_t index, uint16_t *row
   return DTOF_OK;
 }
 
+dtof_status dtof_unpack_amplitude(uint64_t word, dtof_result *result) {
+  uint16_t amplitude = (uint16_t)FIELD(word, DTOF_AMPLITUDE_RESULT_AMPLITUDE);
+  uint16_t ambient = (uint16_t)FIELD(word, DTOF_AMPLITUDE_RESULT_AMBIENT);
+  if (FIELD(word, DTOF_RESULT_ABORTED) != 0) {
+    return DTOF_ABORTED;
+  }
+  if (FIELD(word, DTOF_RESULT_SECOND) != 0) {
+    result->has_second = true;
+    result->second_position = (uint16_t)FIELD(word, DTOF_RESULT_POSITION);
+    return result->amplitude == amplitude && result->ambient == ambient ? DTOF_OK : DTOF_STREAM;
+  }
+  take_fields(word, result);
+  result->has_amplitude = true;
+  result->amplitude = amplitude;
+  result->ambient = ambient;
+  return result->raw ? DTOF_STREAM : DTOF_OK;
+}
+
+dtof_status dtof_unpack_amplitude_frame(const dtof_device *device, const uint64_t *words, size_t count,
+                                        dtof_result *results) {
+  size_t pixels = (size_t)device->rows * device->columns;
+  size_t words_of_a_pixel = count == pixels ? 1U : 2U;
+  if (count > 0 && FIELD(words[count - 1], DTOF_RESULT_ABORTED) != 0) {
+    return DTOF_ABORTED;
+  }
+  if (count != words_of_a_pixel * pixels) {
+    return DTOF_STREAM;
+  }
+  for (size_t i = 0; i < pixels; ++i) {
+    dtof_result result;
+    dtof_status status = dtof_pixel_at(device, i, &result.row, &result.column);
+    for (size_t k = 0; status == DTOF_OK && k < words_of_a_pixel; ++k) {
+      uint64_t word = words[words_of_a_pixel * i + k];
+      status = (FIELD(word, DTOF_RESULT_SECOND) != 0) == (k == 1U) ? dtof_unpack_amplitude(word, &result)
+                                                                   : DTOF_STREAM;
+    }
+    if (status != DTOF_OK) {
+      return DTOF_STREAM;
+    }
+    results[(size_t)result.row * device->columns + result.column] = result;
+  }
+  return DTOF_OK;
+}
+
 dtof_status dtof_unpack_short(uint32_t word, dtof_result *result) {
   /* A result has at least one of these bits. */
   const uint32_t status = DTOF_SHORT_RESULT_VALID_MASK | DTOF_SHORT_RESULT_WEAK_MASK |
@@ -466,6 +521,9 @@ dtof_status dtof_unpack_short(uint32_t word, dtof_result *result) {
   result->raw = false;
   result->has_second = false;
   result->second_position = 0;
+  result->has_amplitude = false;
+  result->amplitude = 0;
+  result->ambient = 0;
   return DTOF_OK;
 }
 

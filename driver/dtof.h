@@ -53,6 +53,7 @@ typedef struct {
   bool has_gate;
   bool has_raster_order; /* results come row by row */
   bool has_second_target;
+  bool has_amplitude;
   bool has_prior;
   bool has_raw_histogram;
   bool has_parity; /* of the words in the subsystem's own memories */
@@ -103,6 +104,8 @@ typedef struct {
       shot_bits; /* start dither: shot_o is delayed by 0 to 2^shot_bits - 1 units; at most 7; 0: no delay */
   uint8_t shot_unit; /* clocks of a unit */
   uint16_t settle;  /* acquisitions at the frame's start that are dropped, before the first one that counts */
+  bool amplitude;   /* words with amplitude and ambient in place of row and column; no effect on short words;
+                       DTOF_ARGUMENT if has_amplitude is false */
   bool short_words; /* results of 32 bits, two in each word of the stream; without effect on raw frames */
 } dtof_settings;
 
@@ -133,6 +136,9 @@ typedef struct {
   bool raw;       /* a bin of a raw histogram: its lowest code and, as the confidence, its count */
   bool has_second;
   uint16_t second_position; /* where has_second: of the pixel's second target */
+  bool has_amplitude;
+  uint16_t amplitude; /* where has_amplitude: counts of the target; 0 if they are not known */
+  uint16_t ambient;   /* where has_amplitude: background of the pixel's group */
 } dtof_result;
 
 /* A point of a look-up table: the distance at a position in codes. */
@@ -246,6 +252,16 @@ dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, 
  * poolPointer's engines. Of a frame with second targets, index / 2 is the index of a word's pixel.
  * DTOF_ARGUMENT if the array has no such pixel. */
 dtof_status dtof_pixel_at(const dtof_device *device, size_t index, uint16_t *row, uint16_t *column);
+
+/* Unpacks a word with amplitude and ambient. Row and column of the result, which it does not have, stay as
+ * they are. For the word of a second target, pass the result that the word before has filled: DTOF_STREAM if
+ * amplitude or ambient of the two words differ. DTOF_ABORTED if the word marks an aborted frame. */
+dtof_status dtof_unpack_amplitude(uint64_t word, dtof_result *result);
+
+/* Unpacks a frame of words with amplitude and ambient as dtof_unpack_frame does. The order of the words gives
+ * row and column. DTOF_STREAM unless the frame has a word of each pixel, or two. */
+dtof_status dtof_unpack_amplitude_frame(const dtof_device *device, const uint64_t *words, size_t count,
+                                        dtof_result *results);
 
 /* Unpacks a short word. Row and column of the result, which it does not have, stay as they are. For the word
  * of a second target, pass the result that the word before has filled. DTOF_STREAM if the word is no result,

@@ -14,6 +14,7 @@ module apb_registers_properties #(
     parameter int TIME_GATE = 1,
     parameter int RASTER_ORDER = 0,
     parameter int SECOND_TARGET = 1,
+    parameter int AMPLITUDE = 1,
     parameter int PRIOR = 1,
     parameter int RAW_HISTOGRAM = 1,
     parameter int PARITY = 0,
@@ -73,7 +74,7 @@ module apb_registers_properties #(
 
   localparam int MOST_RELEASE = 5;
 
-  logic pready, pslverr, start, self_test, flush, abort, continuous, reseed, second, raw, smooth, prior, short_words, irq;
+  logic pready, pslverr, start, self_test, flush, abort, continuous, reseed, second, amplitude, raw, smooth, prior, short_words, irq;
   logic [31:0] prdata, test_seed, test_expected;
   logic [23:0] watchdog;
   logic [15:0] seed, release_lines, weak_below, settle;
@@ -95,6 +96,7 @@ module apb_registers_properties #(
       .CLOCK_WAITS     (CLOCK_WAITS),
       .SOURCE_WAITS    (SOURCE_WAITS),
       .SECOND_TARGET   (SECOND_TARGET),
+      .AMPLITUDE       (AMPLITUDE),
       .PRIOR           (PRIOR),
       .RAW_HISTOGRAM   (RAW_HISTOGRAM),
       .RAW_BINS        (1000),
@@ -145,6 +147,7 @@ module apb_registers_properties #(
       .self_test_seed_o   (test_seed),
       .self_test_expected_o(test_expected),
       .second_o           (second),
+      .amplitude_o        (amplitude),
       .raw_o              (raw),
       .raw_first_o        (raw_first),
       .raw_last_o         (raw_last),
@@ -218,7 +221,7 @@ module apb_registers_properties #(
       dtof_registers_pkg::GATE: if (TIME_GATE != 0) kept_bits = (low_bits(NP) << 16) | low_bits(NP);
       dtof_registers_pkg::RELEASE: kept_bits = 32'h0000ffff;
       dtof_registers_pkg::WEAK_BELOW: kept_bits = (CONFIDENCE_WIDTH < 16) ? low_bits(CONFIDENCE_WIDTH + 1) : 32'h0000ffff;
-      dtof_registers_pkg::OUTPUT: kept_bits = {27'd0, 1'b1, PRIOR != 0, HAS_SCHEDULE != 0, RAW_HISTOGRAM != 0, SECOND_TARGET != 0};
+      dtof_registers_pkg::OUTPUT: kept_bits = {26'd0, AMPLITUDE != 0, 1'b1, PRIOR != 0, HAS_SCHEDULE != 0, RAW_HISTOGRAM != 0, SECOND_TARGET != 0};
       dtof_registers_pkg::RAW_ROWS: if (RAW_HISTOGRAM != 0) kept_bits = 32'h0fff0fff;
       dtof_registers_pkg::SHOT: kept_bits = 32'h0000ff07;
       dtof_registers_pkg::SHOT_SEED, dtof_registers_pkg::SETTLE: kept_bits = 32'h0000ffff;
@@ -343,7 +346,7 @@ module apb_registers_properties #(
       dtof_registers_pkg::ID: fixed = "DOFP";
       dtof_registers_pkg::VERSION: fixed = dtof_registers_pkg::VERSION_VALUE;
       dtof_registers_pkg::READOUT:
-      fixed = {14'd0, SELF_TEST != 0, SOURCE_WAITS != 0, CLOCK_WAITS != 0, PARITY != 0, PRIOR != 0, RAW_HISTOGRAM != 0, SECOND_TARGET != 0,
+      fixed = {13'd0, AMPLITUDE != 0, SELF_TEST != 0, SOURCE_WAITS != 0, CLOCK_WAITS != 0, PARITY != 0, PRIOR != 0, RAW_HISTOGRAM != 0, SECOND_TARGET != 0,
                RASTER_ORDER != 0, TIME_GATE != 0, HAS_SCHEDULE != 0, 8'd3};
       dtof_registers_pkg::SIZE: fixed = {16'd70, 16'(SRAM_NUM)};
       dtof_registers_pkg::WIDTHS: fixed = {8'(ACQ_WIDTH), 8'(CONFIDENCE_WIDTH), 8'd6, 8'(NP)};
@@ -416,7 +419,7 @@ module apb_registers_properties #(
       dtof_registers_pkg::GATE: shown = {16'(gate_end), 16'(gate_begin)};
       dtof_registers_pkg::RELEASE: shown = 32'(release_lines);
       dtof_registers_pkg::WEAK_BELOW: shown = 32'(weak_below);
-      dtof_registers_pkg::OUTPUT: shown = {27'd0, short_words, prior, smooth, raw, second};
+      dtof_registers_pkg::OUTPUT: shown = {26'd0, amplitude, short_words, prior, smooth, raw, second};
       dtof_registers_pkg::RAW_ROWS: shown = {4'd0, raw_last, 4'd0, raw_first};
       dtof_registers_pkg::SHOT: shown = {16'd0, shot_unit, 5'd0, shot_bits};
       dtof_registers_pkg::SETTLE: shown = 32'(settle);

@@ -14,9 +14,12 @@ module stream_output_properties #(
     parameter int HAS_CONFIDENCE = (CONFIDENCE_WIDTH > 0) ? 1 : 0,
     parameter int COUNTER_WIDTH = CONFIDENCE_WIDTH,
     parameter int RAW_COUNTER_WIDTH = CONFIDENCE_WIDTH,
+    parameter int AMPLITUDE_WIDTH = 0,
+    localparam int AMBIENT_WIDTH = (AMPLITUDE_WIDTH > 0) ? 6 : 0,
+    localparam int LIGHT_BITS = (AMPLITUDE_WIDTH > 0) ? AMBIENT_WIDTH + AMPLITUDE_WIDTH : 1,
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int CONFIDENCE_BITS = (CONFIDENCE_WIDTH > 0) ? CONFIDENCE_WIDTH : 1,
-    localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
+    localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + AMBIENT_WIDTH + AMPLITUDE_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
     localparam int ENTRY_WIDTH = 67
 ) (
     input logic                       clk_i,
@@ -24,6 +27,8 @@ module stream_output_properties #(
     input logic [               15:0] weak_below_i,
     input logic [       SRAM_NUM-1:0] enable_i,
     input logic                       raw_i,
+    input logic                       amplitude_i,
+    input logic [     LIGHT_BITS-1:0] light_i,
     input logic                       short_i,
     input logic                       cut_i,
     input logic                       result_tvalid_i,
@@ -45,11 +50,19 @@ module stream_output_properties #(
 
   logic [TDATA_WIDTH-1:0] result;
   logic [15:0] confidence;
+  logic [23:0] place;
   generate
-    if (CONFIDENCE_WIDTH > 0) begin : g_confidence
+    if (AMPLITUDE_WIDTH > 0) begin : g_amplitude
+      assign result = {column_i, row_i, light_i, position_i, confidence_i};
+      assign confidence = 16'(confidence_i);
+      assign place = amplitude_i ? {12'(light_i[AMPLITUDE_WIDTH+:AMBIENT_WIDTH]), 12'(light_i[AMPLITUDE_WIDTH-1:0])}
+          : {12'(column_i), 12'(row_i)};
+    end else if (CONFIDENCE_WIDTH > 0) begin : g_confidence
+      assign place = {12'(column_i), 12'(row_i)};
       assign result = {column_i, row_i, position_i, confidence_i};
       assign confidence = 16'(confidence_i);
     end else begin : g_no_confidence
+      assign place = {12'(column_i), 12'(row_i)};
       assign result = {column_i, row_i, position_i};
       assign confidence = '0;
     end
@@ -65,13 +78,15 @@ module stream_output_properties #(
       .CONFIDENCE_WIDTH (CONFIDENCE_WIDTH),
       .HAS_CONFIDENCE   (HAS_CONFIDENCE),
       .COUNTER_WIDTH    (COUNTER_WIDTH),
-      .RAW_COUNTER_WIDTH(RAW_COUNTER_WIDTH)
+      .RAW_COUNTER_WIDTH(RAW_COUNTER_WIDTH),
+      .AMPLITUDE_WIDTH  (AMPLITUDE_WIDTH)
   ) u_dut (
       .clk_i          (clk_i),
       .rst_ni         (rst_n),
       .weak_below_i   (weak_below_i),
       .enable_i       (enable_i),
       .raw_i          (raw_i),
+      .amplitude_i    (amplitude_i),
       .short_i        (short_i),
       .cut_i          (cut_i),
       .result_tvalid_i(result_tvalid_i),
@@ -101,7 +116,7 @@ module stream_output_properties #(
   assign saturated = (CONFIDENCE_WIDTH > 0) && (raw_i ? above == 17'd1 << RAW_COUNTER_WIDTH
       : (COUNTER_WIDTH > 0 && above == 17'd1 << COUNTER_WIDTH));
   assign entry = {short_i, begins_q, result_tlast_i, 1'b0, raw_i, result_second_i, saturated, masked, empty, weak,
-                  !weak && !empty && !masked, 12'(column_i), 12'(row_i), confidence, 16'(position_i)};
+                  !weak && !empty && !masked, place, confidence, 16'(position_i)};
   assign push = result_tvalid_i && result_tready;
   assign pop = tvalid && m_axis_tready_i;
 

@@ -49,6 +49,7 @@ pool/dtof_candidate_significance.sv
 pool/dtof_coarse_template.sv
 pool/dtof_near_significance.sv
 pool/dtof_pool_confidence.sv
+pool/dtof_pool_light.sv
 pool/dtof_pool_candidate_decoder.sv
 pool/dtof_pool_line.sv
 pool/dtof_pool_engine.sv

@@ -89,6 +89,7 @@ class Map:
     minor: int
     registers: list[Register]
     result: list[Field]
+    amplitude_result: list[Field]
     short_result: list[Field]
 
 
@@ -121,11 +122,12 @@ def parse(text: str) -> Map:
             fields = checked_fields(f"{where}: {name}", entry.pop("fields"), REGISTER_BITS, access=True)
             registers.append(Register(name, fields=fields, **entry))
         result = checked_fields(f"{where}: result", table["result"], RESULT_BITS, access=False)
+        amplitude_result = checked_fields(f"{where}: amplitude_result", table["amplitude_result"], RESULT_BITS, access=False)
         short_result = checked_fields(f"{where}: short_result", table["short_result"], SHORT_RESULT_BITS, access=False)
         known = {"ID": {"VALUE": table["id"]}, "VERSION": {"MAJOR": table["major"], "MINOR": table["minor"]}}
         registers = [replace(register, fields=[replace(field, reset=known.get(register.name, {}).get(field.name, field.reset))
                                                for field in register.fields]) for register in registers]
-        whole = Map(table["id"], table["major"], table["minor"], registers, result, short_result)
+        whole = Map(table["id"], table["major"], table["minor"], registers, result, amplitude_result, short_result)
     except (tomllib.TOMLDecodeError, KeyError, TypeError) as error:
         raise FlowError(f"{where}: {error}") from None
     taken: dict[int, str] = {}
@@ -179,6 +181,7 @@ def systemverilog(whole: Map) -> str:
             lines.append(f"  localparam int {register.name}_{field.name}_LSB = {field.lowest};")
             lines.append(f"  localparam int {register.name}_{field.name}_WIDTH = {field.width};")
     for title, prefix, bits, fields in (("A result.", "RESULT", RESULT_BITS, whole.result),
+                                        ("Fields of a result with amplitude.", "AMPLITUDE_RESULT", RESULT_BITS, whole.amplitude_result),
                                         ("A short result.", "SHORT_RESULT", SHORT_RESULT_BITS, whole.short_result)):  # fmt: skip
         lines += ["", f"  // {title}", f"  localparam int {prefix}_WIDTH = {bits};"]
         for field in fields:
@@ -224,6 +227,9 @@ def c_header(whole: Map) -> str:
     lines += ["", "/* A result: a word of 64 bits. */"]
     for field in whole.result:
         lines += field_lines("DTOF_RESULT", field, RESULT_BITS)
+    lines += ["", "/* Fields of a result in a frame with OUTPUT.AMPLITUDE, in place of row and column. */"]
+    for field in whole.amplitude_result:
+        lines += field_lines("DTOF_AMPLITUDE_RESULT", field, RESULT_BITS)
     lines += ["", "/* A short result: half a beat of 64 bits. */"]
     for field in whole.short_result:
         lines += field_lines("DTOF_SHORT_RESULT", field, SHORT_RESULT_BITS)
@@ -248,6 +254,7 @@ def result_table(fields: list[Field]) -> str:
 def page(text: str, whole: Map) -> str:
     """The page with the tables between their marks."""
     for name, table in (("registers", register_table(whole)), ("result word", result_table(whole.result)),
+                        ("amplitude result word", result_table(whole.amplitude_result)),
                         ("short result word", result_table(whole.short_result))):  # fmt: skip
         begin = f"<!-- {name}: written by scripts/generate.py -->\n"
         end = f"<!-- end of {name} -->\n"

@@ -34,6 +34,7 @@ dtof::PlaygroundFrame frame;
 std::string sensor_line;
 std::vector<dtof::Detection> detections;
 std::unique_ptr<dtof::PixelTrace> trace;
+std::vector<std::uint16_t> results;
 std::vector<std::uint16_t> state;
 std::vector<dtof::PoolCandidate> candidates;
 std::string sentence;
@@ -132,6 +133,10 @@ bool playground_read_column(int column) {
 bool playground_frame(int readout) {
   return attempt([&] {
     frame = session->frame(static_cast<std::size_t>(readout));
+    results.clear();
+    for (const dtof::PixelResult& result : frame.results) {
+      results.insert(results.end(), {result.code, result.fraction, result.confidence, result.second});
+    }
     figures.clear();
     for (const std::string& figure : frame.figures) {
       figures += figures.empty() ? figure : "\n" + figure;
@@ -141,10 +146,7 @@ bool playground_frame(int readout) {
 const float* playground_depth() { return frame.depth_m.data(); }
 const float* playground_error_map() { return frame.error_m.data(); }
 /// Four numbers a pixel: code, fraction, confidence, second position.
-const std::uint16_t* playground_results() {
-  static_assert(sizeof(dtof::PixelResult) == 4 * sizeof(std::uint16_t));
-  return &frame.results.front().code;
-}
+const std::uint16_t* playground_results() { return results.data(); }
 /// What a pixel's TDC delivered over the frame: reads it, says how many detections there are, and where. A
 /// detection is an acquisition of 32 bits and a timestamp of 16, in 8 bytes.
 bool playground_pixel(int column, int row) {

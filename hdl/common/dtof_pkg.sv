@@ -215,6 +215,27 @@ package dtof_pkg;
     pool_result_width = ((second_target != 0) ? 32 : 16) + pool_confidence_width(advantage_width);
   endfunction
 
+  // Bits of an amplitude, which is at most 688 if an advantage has 7 bits, and at most 72 if it has 4.
+  function automatic int pool_amplitude_width(input int advantage_width);
+    pool_amplitude_width = advantage_width + 3;
+  endfunction
+
+  // Bits of {ambient, amplitude} in a result; 0 without AMPLITUDE.
+  function automatic int pool_light_width(input int advantage_width, input int amplitude);
+    pool_light_width = (amplitude != 0) ? POOL_BACKGROUND_WIDTH + pool_amplitude_width(advantage_width) : 0;
+  endfunction
+
+  // The counts that an advantage stands for. It counts every hit below half of its range, every fourth below three quarters, and every
+  // sixteenth above.
+  function automatic logic [9:0] pool_amplitude(input int advantage_width, input logic [6:0] advantage);
+    logic [9:0] counts, half;
+    counts = 10'(advantage);
+    half = 10'd1 << (advantage_width - 1);
+    pool_amplitude = counts;
+    if (counts >= half + (half >> 1)) pool_amplitude = ((counts - half - (half >> 1)) << 4) + half + (half << 1);
+    else if (counts >= half) pool_amplitude = ((counts - half) << 2) + half;
+  endfunction
+
 endpackage
 
 `default_nettype wire

@@ -37,6 +37,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int RIVAL_MOVES = 1,
     parameter int CELL_SHIFT = 9,
     parameter int SECOND_TARGET = 0,
+    parameter int AMPLITUDE = 0,
     parameter int PRIOR = 0,
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
@@ -49,7 +50,10 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int SIGNIFICANCE_WIDTH = dtof_pkg::pool_significance_width(LABELS, PIXEL_WIDTH, ADVANTAGE_WIDTH, RIVAL_MOVES, PRIOR),
     localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
-    localparam int RESULT_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET)
+    localparam int DEPTH_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET),
+    // {background as the group's word stores it, advantage}
+    localparam int LIGHT_WIDTH = (AMPLITUDE != 0) ? dtof_pkg::pool_background_width(LABELS, PIXEL_WIDTH) + ADVANTAGE_WIDTH : 0,
+    localparam int RESULT_WIDTH = DEPTH_WIDTH + LIGHT_WIDTH
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
@@ -65,8 +69,8 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     input  logic [  LINE_WIDTH-1:0] line_i,         // the word that was read, POOL_PAIR_READ_CLOCKS + POOL_LINE_CLOCKS after its read
     output logic [  HALF_WIDTH-1:0] word_o,         // the word to write: a group's word, or two first pointer words
     input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // row of write_scratch and read_scratch
-    // {code, fraction, confidence}, with SECOND_TARGET = 1 {second code, second fraction, code, ...}; holds from one take_result to the
-    // next
+    // {code, fraction, confidence}, with SECOND_TARGET = 1 {second code, second fraction, code, ...}, with AMPLITUDE = 1 {background,
+    // advantage} above; holds from one take_result to the next
     output logic [RESULT_WIDTH-1:0] result_o
 );
 
@@ -481,8 +485,31 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .start_o         (start),
       .start_margin_o  (start_margin),
       .take_result_i   (command_i.take_result),
-      .result_o        (result_o)
+      .result_o        (result_o[DEPTH_WIDTH-1:0])
   );
+
+  // Decide: what a result says about the light.
+
+  generate
+    if (AMPLITUDE != 0) begin : g_amplitude
+      logic next_prepared, take_winner;  // signals, because Icarus Verilog 12 connects the whole command to a port in a generate block
+      assign next_prepared = command_i.decide.advance;
+      assign take_winner = command_i.deciding && command_i.take_position;
+      dtof_pool_light #(
+          .BACKGROUND_WIDTH(KEPT_WIDTH),
+          .ADVANTAGE_WIDTH (ADVANTAGE_WIDTH)
+      ) u_light (
+          .clk_i          (clk_i),
+          .advance_i      (next_prepared),
+          .background_i   (line_q[LABELS*CELL_WIDTH+:KEPT_WIDTH]),
+          .advantage_i    (prepared_q[POINT_WIDTH-1-:ADVANTAGE_WIDTH]),
+          .take_position_i(take_winner),
+          .rival_wins_i   (decided_rival),
+          .take_result_i  (command_i.take_result),
+          .light_o        (result_o[RESULT_WIDTH-1:DEPTH_WIDTH])
+      );
+    end
+  endgenerate
 
   // Decide: confidence. The significances near both labels and the group's background move through the steps with the pixel.
 

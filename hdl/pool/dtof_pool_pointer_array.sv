@@ -11,7 +11,7 @@
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}, in three nested loops: column of an engine (outer), row,
 //   engine (inner); column = engine * ENGINE_COLUMNS + column of the engine. With SECOND_TARGET = 1 tdata = {column, row,
 //   second code, second fraction, code, fraction, confidence}: the second code is that of the label that lost the decision, not
-//   smoothed; the confidence holds for it, too.
+//   smoothed; the confidence holds for it, too. With AMPLITUDE = 1 tdata = {column, row, ambient, amplitude, ...}.
 // Borders: every signal between the shared logic and columns or engines runs from a register to a register (dtof_broadcast.sv).
 //   Timestamps run from the port, which counts as the TDC's register, to the registers of their column (dtof_timestamp_input.sv). The
 //   words of an engine's pairs are combined by OR on their way to the engine (dtof_pool_line.sv).
@@ -39,13 +39,15 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int CELL_SHIFT = 9,         // log2 of a settled pointer's cells in positions, 8 to 10, by the pulse's width
     parameter int TIME_GATE = 0,           // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int SECOND_TARGET = 0,      // 1: a result also has the position of the label that lost
+    parameter int AMPLITUDE = 0,          // 1: a result also has amplitude and ambient
     parameter int PRIOR = 0,              // 1: with prior_i, candidates used in the last frame raise their pair sums
     parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, an even number
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
     parameter int BROADCAST_STAGES = 2,   // registers between the shared logic and columns and engines, 1 to 8
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int RESULT_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET),
+    localparam int DEPTH_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET),
+    localparam int RESULT_WIDTH = DEPTH_WIDTH + dtof_pkg::pool_light_width(ADVANTAGE_WIDTH, AMPLITUDE),
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
 ) (
     input  logic                   clk_i,
@@ -123,6 +125,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
                 "dtof_pool_pointer_array: CELL_SHIFT must be 8 to 10")
   `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || SECOND_TARGET == 1,
                 "dtof_pool_pointer_array: SECOND_TARGET must be 0 or 1")
+  `DTOF_REQUIRE(g_illegal_amplitude, AMPLITUDE == 0 || AMPLITUDE == 1, "dtof_pool_pointer_array: AMPLITUDE must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_prior, PRIOR == 0 || PRIOR == 1, "dtof_pool_pointer_array: PRIOR must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_used, PRIOR == 0 || dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH) + LABELS <= HALF_WIDTH,
                 "dtof_pool_pointer_array: a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1")
@@ -621,7 +624,11 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   // Engines.
 
-  logic [ENGINES*RESULT_WIDTH-1:0] results;
+  // With AMPLITUDE = 1 engines give background and advantage as their words store them, which are fewer bits than ambient and amplitude.
+  localparam int KEPT_WIDTH = dtof_pkg::pool_background_width(LABELS, PIXEL_WIDTH);
+  localparam int SENT_RESULT_WIDTH = DEPTH_WIDTH + ((AMPLITUDE != 0) ? KEPT_WIDTH + ADVANTAGE_WIDTH : 0);
+  logic [ENGINES*SENT_RESULT_WIDTH-1:0] results;
+  logic [COLUMN_WIDTH+ROW_WIDTH+SENT_RESULT_WIDTH-1:0] sent_result;
 
   genvar e, s;
   generate
@@ -673,6 +680,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .RIVAL_MOVES    (RIVAL_MOVES),
           .CELL_SHIFT     (CELL_SHIFT),
           .SECOND_TARGET  (SECOND_TARGET),
+          .AMPLITUDE      (AMPLITUDE),
           .PRIOR          (PRIOR)
       ) u_engine (
           .clk_i        (clk_i),
@@ -688,7 +696,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .line_i       (line),
           .word_o       (word),
           .scratch_row_i(received.scratch_row),
-          .result_o     (results[e*RESULT_WIDTH+:RESULT_WIDTH])
+          .result_o     (results[e*SENT_RESULT_WIDTH+:SENT_RESULT_WIDTH])
       );
     end
   endgenerate
@@ -698,7 +706,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .ENGINE_COLUMNS(STEPS),
       .SRAM_NUM      (SRAM_NUM),
       .ROW_WIDTH     (ROW_WIDTH),
-      .RESULT_WIDTH  (RESULT_WIDTH),
+      .RESULT_WIDTH  (SENT_RESULT_WIDTH),
       .LATENCY       (BROADCAST_STAGES)
   ) u_result_output (
       .clk_i    (clk_i),
@@ -712,9 +720,30 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .busy_o   (send_busy),
       .tvalid_o (result_tvalid_o),
       .tready_i (result_tready_i),
-      .tdata_o  (result_tdata_o),
+      .tdata_o  (sent_result),
       .tlast_o  (result_tlast_o)
   );
+
+  generate
+    if (AMPLITUDE != 0) begin : g_amplitude
+      localparam int LOST_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH - KEPT_WIDTH;
+      localparam int AMPLITUDE_WIDTH = dtof_pkg::pool_amplitude_width(ADVANTAGE_WIDTH);
+      logic [dtof_pkg::POOL_BACKGROUND_WIDTH-1:0] ambient;
+      logic [9:0] amplitude;
+      // The low bits that the group's word does not store are replaced by the middle of their range.
+      assign ambient = (dtof_pkg::POOL_BACKGROUND_WIDTH'(sent_result[DEPTH_WIDTH+ADVANTAGE_WIDTH+:KEPT_WIDTH]) << LOST_WIDTH)
+          | dtof_pkg::POOL_BACKGROUND_WIDTH'((1 << LOST_WIDTH) >> 1);
+      assign amplitude = dtof_pkg::pool_amplitude(ADVANTAGE_WIDTH, 7'(sent_result[DEPTH_WIDTH+:ADVANTAGE_WIDTH]));
+      assign result_tdata_o = {sent_result[SENT_RESULT_WIDTH+:COLUMN_WIDTH+ROW_WIDTH], ambient, amplitude[AMPLITUDE_WIDTH-1:0],
+                               sent_result[DEPTH_WIDTH-1:0]};
+      if (AMPLITUDE_WIDTH < 10) begin : g_unused
+        logic unused_amplitude;
+        assign unused_amplitude = ^amplitude[9:AMPLITUDE_WIDTH];
+      end
+    end else begin : g_depth_alone
+      assign result_tdata_o = sent_result;
+    end
+  endgenerate
 
 endmodule
 

@@ -26,6 +26,7 @@ module dtof_apb_registers #(
     parameter int CLOCK_WAITS = 1,
     parameter int SOURCE_WAITS = 1,
     parameter int SECOND_TARGET = 0,
+    parameter int AMPLITUDE = 0,
     parameter int PRIOR = 0,
     parameter int RAW_HISTOGRAM = 0,
     parameter int RAW_BINS = 0,
@@ -81,6 +82,7 @@ module dtof_apb_registers #(
     output logic [         31:0] self_test_expected_o,
     // committed settings
     output logic                 second_o,       // 0 without SECOND_TARGET
+    output logic                 amplitude_o,    // 0 without AMPLITUDE
     output logic                 raw_o,          // raw_o, raw_first_o and raw_last_o are 0 without RAW_HISTOGRAM
     output logic [         11:0] raw_first_o,
     output logic [         11:0] raw_last_o,
@@ -309,7 +311,7 @@ module dtof_apb_registers #(
 
   // Settings that not every configuration has.
 
-  logic second, raw, smooth, prior;
+  logic second, amplitude, raw, smooth, prior;
   logic [11:0] raw_first, raw_last;
   logic [ACQ_WIDTH-1:0] coarse_end, track_end;
   logic [NP-1:0] gate_begin, gate_end;
@@ -407,6 +409,20 @@ module dtof_apb_registers #(
       assign second = second_q;
     end else begin : g_one_target
       assign second = 1'b0;
+    end
+
+    if (AMPLITUDE != 0) begin : g_amplitude
+      logic amplitude_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          amplitude_q <= 1'b0;
+        end else if (write && offset == dtof_registers_pkg::OUTPUT && mask[dtof_registers_pkg::OUTPUT_AMPLITUDE_LSB]) begin
+          amplitude_q <= written[dtof_registers_pkg::OUTPUT_AMPLITUDE_LSB];
+        end
+      end
+      assign amplitude = amplitude_q;
+    end else begin : g_no_amplitude
+      assign amplitude = 1'b0;
     end
 
     if (PRIOR != 0) begin : g_prior
@@ -521,6 +537,7 @@ module dtof_apb_registers #(
       smooth_o <= smooth;
       prior_o <= prior;
       second_o <= second;
+      amplitude_o <= amplitude;
       raw_o <= raw;
       raw_first_o <= raw_first;
       raw_last_o <= raw_last;
@@ -551,6 +568,7 @@ module dtof_apb_registers #(
       (((SECOND_TARGET != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB)
       | (((RAW_HISTOGRAM != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_RAW_LSB)
       | (((HAS_SCHEDULE != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_SMOOTH_LSB)
+      | (((AMPLITUDE != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_AMPLITUDE_LSB)
       | (((PRIOR != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_PRIOR_LSB)
       | (32'd1 << dtof_registers_pkg::OUTPUT_SHORT_WORDS_LSB);
   localparam logic [31:0] LAST_COLUMNS = 32'hffffffff >> (32 * ENABLE_WORDS - SRAM_NUM);
@@ -599,6 +617,7 @@ module dtof_apb_registers #(
         read_data[dtof_registers_pkg::READOUT_RASTER_ORDER_LSB] = (RASTER_ORDER != 0);
         read_data[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
         read_data[dtof_registers_pkg::READOUT_PRIOR_LSB] = (PRIOR != 0);
+        read_data[dtof_registers_pkg::READOUT_AMPLITUDE_LSB] = (AMPLITUDE != 0);
         read_data[dtof_registers_pkg::READOUT_PARITY_LSB] = (PARITY != 0);
         read_data[dtof_registers_pkg::READOUT_SELF_TEST_LSB] = (SELF_TEST != 0);
         read_data[dtof_registers_pkg::READOUT_CLOCK_WAITS_LSB] = (CLOCK_WAITS != 0);
@@ -693,6 +712,7 @@ module dtof_apb_registers #(
         read_data[dtof_registers_pkg::OUTPUT_RAW_LSB] = raw;
         read_data[dtof_registers_pkg::OUTPUT_SMOOTH_LSB] = smooth;
         read_data[dtof_registers_pkg::OUTPUT_PRIOR_LSB] = prior;
+        read_data[dtof_registers_pkg::OUTPUT_AMPLITUDE_LSB] = amplitude;
         read_data[dtof_registers_pkg::OUTPUT_SHORT_WORDS_LSB] = short_words_q;
       end
       dtof_registers_pkg::RAW_ROWS: begin

@@ -9,7 +9,7 @@
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
-  localparam logic [31:0] VERSION_VALUE = 32'h00030005;
+  localparam logic [31:0] VERSION_VALUE = 32'h00030006;
 
   // identifies the subsystem
   localparam logic [11:0] ID = 12'h000;
@@ -19,7 +19,7 @@ package dtof_registers_pkg;
 
   // version of the registers and the result stream
   localparam logic [11:0] VERSION = 12'h004;
-  localparam logic [31:0] VERSION_RESET = 32'h00030005;
+  localparam logic [31:0] VERSION_RESET = 32'h00030006;
   localparam int VERSION_MINOR_LSB = 0;
   localparam int VERSION_MINOR_WIDTH = 16;
   localparam int VERSION_MAJOR_LSB = 16;
@@ -50,6 +50,8 @@ package dtof_registers_pkg;
   localparam int READOUT_SOURCE_WAITS_WIDTH = 1;
   localparam int READOUT_SELF_TEST_LSB = 17;
   localparam int READOUT_SELF_TEST_WIDTH = 1;
+  localparam int READOUT_AMPLITUDE_LSB = 18;
+  localparam int READOUT_AMPLITUDE_WIDTH = 1;
 
   // size of the array
   localparam logic [11:0] SIZE = 12'h00c;
@@ -292,6 +294,8 @@ package dtof_registers_pkg;
   localparam int OUTPUT_PRIOR_WIDTH = 1;
   localparam int OUTPUT_SHORT_WORDS_LSB = 4;
   localparam int OUTPUT_SHORT_WORDS_WIDTH = 1;
+  localparam int OUTPUT_AMPLITUDE_LSB = 5;
+  localparam int OUTPUT_AMPLITUDE_WIDTH = 1;
 
   // register k: columns 32 k and up; at reset all are enabled
   localparam logic [11:0] COLUMN_ENABLE = 12'h080;
@@ -415,6 +419,13 @@ package dtof_registers_pkg;
   localparam int RESULT_RAW_WIDTH = 1;
   localparam int RESULT_ABORTED_LSB = 63;
   localparam int RESULT_ABORTED_WIDTH = 1;
+
+  // Fields of a result with amplitude.
+  localparam int AMPLITUDE_RESULT_WIDTH = 64;
+  localparam int AMPLITUDE_RESULT_AMPLITUDE_LSB = 32;
+  localparam int AMPLITUDE_RESULT_AMPLITUDE_WIDTH = 12;
+  localparam int AMPLITUDE_RESULT_AMBIENT_LSB = 44;
+  localparam int AMPLITUDE_RESULT_AMBIENT_WIDTH = 12;
 
   // A short result.
   localparam int SHORT_RESULT_WIDTH = 32;

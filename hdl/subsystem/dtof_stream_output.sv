@@ -6,6 +6,7 @@
 // second target; `weak`: confidence < weak_below_i; `empty`: confidence = 0, if the read-out has a confidence; `masked`: the column
 // is not enabled; `valid`: neither weak nor empty nor masked; `saturated`: the counter of COUNTER_WIDTH bits (raw frame:
 // RAW_COUNTER_WIDTH) has its largest value. Counts of a raw frame are neither weak nor empty.
+// With amplitude_i words have amplitude and ambient in place of row and column.
 // tuser marks a frame's first word, tlast its last word. m_axis_short_o is short_i at the frame's results.
 // cut_i ends the frame: the word at the port stays until the sink takes it, and the second word is deleted. If words of the frame, but
 // not its last, have been at the port, a word in which only `aborted` is set, with tlast, ends the frame.
@@ -24,21 +25,24 @@ module dtof_stream_output #(
     parameter int HAS_CONFIDENCE = (CONFIDENCE_WIDTH > 0) ? 1 : 0,  // 0: the field has counts of raw frames only
     parameter int COUNTER_WIDTH = CONFIDENCE_WIDTH,      // bits of the counter that the confidence shows; 0: the confidence is no counter
     parameter int RAW_COUNTER_WIDTH = CONFIDENCE_WIDTH,  // bits of a bin in a raw frame
+    parameter int AMPLITUDE_WIDTH = 0,  // bits of an amplitude, at most 12; 0: results have neither amplitude nor ambient
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
-    localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
+    localparam int AMBIENT_WIDTH = (AMPLITUDE_WIDTH > 0) ? dtof_pkg::POOL_BACKGROUND_WIDTH : 0,
+    localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + AMBIENT_WIDTH + AMPLITUDE_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
     localparam int WORD_WIDTH = dtof_registers_pkg::RESULT_WIDTH
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    input  logic [           15:0] weak_below_i,   // weak_below_i, enable_i, raw_i and short_i are stable during a frame
+    input  logic [           15:0] weak_below_i,   // weak_below_i, enable_i, raw_i, amplitude_i and short_i are stable during a frame
     input  logic [   SRAM_NUM-1:0] enable_i,
     input  logic                   raw_i,          // the frame's results are counts
+    input  logic                   amplitude_i,    // 0 if AMPLITUDE_WIDTH is 0
     input  logic                   short_i,        // the frame leaves as short words (dtof_word_packer)
     input  logic                   cut_i,          // ends the present frame; the next result is of another frame
     // from the array
     input  logic                   result_tvalid_i,
     output logic                   result_tready_o,
-    input  logic [TDATA_WIDTH-1:0] result_tdata_i,  // {column, row, code, fraction, confidence}
+    input  logic [TDATA_WIDTH-1:0] result_tdata_i,  // {column, row, ambient, amplitude, code, fraction, confidence}
     input  logic                   result_second_i, // second target of a pixel
     input  logic                   result_tlast_i,  // last result of the frame
     // AXI4-Stream
@@ -57,7 +61,7 @@ module dtof_stream_output #(
   logic low, empty, masked, saturated;
 
   assign column = result_tdata_i[TDATA_WIDTH-1-:COLUMN_WIDTH];
-  assign row = result_tdata_i[POSITION_WIDTH+CONFIDENCE_WIDTH+:ROW_WIDTH];
+  assign row = result_tdata_i[TDATA_WIDTH-1-COLUMN_WIDTH-:ROW_WIDTH];
   assign position = result_tdata_i[CONFIDENCE_WIDTH+:POSITION_WIDTH];
 
   generate
@@ -79,6 +83,26 @@ module dtof_stream_output #(
 
   assign masked = !enable_i[column];
 
+  logic [dtof_registers_pkg::AMPLITUDE_RESULT_AMPLITUDE_WIDTH-1:0] amplitude;
+  logic [dtof_registers_pkg::AMPLITUDE_RESULT_AMBIENT_WIDTH-1:0] ambient;
+  logic shows_amplitude;
+
+  generate
+    if (AMPLITUDE_WIDTH > 0) begin : g_amplitude
+      assign amplitude = dtof_registers_pkg::AMPLITUDE_RESULT_AMPLITUDE_WIDTH'(
+          result_tdata_i[POSITION_WIDTH+CONFIDENCE_WIDTH+:AMPLITUDE_WIDTH]);
+      assign ambient = dtof_registers_pkg::AMPLITUDE_RESULT_AMBIENT_WIDTH'(
+          result_tdata_i[POSITION_WIDTH+CONFIDENCE_WIDTH+AMPLITUDE_WIDTH+:AMBIENT_WIDTH]);
+      assign shows_amplitude = amplitude_i;
+    end else begin : g_no_amplitude
+      logic unused_amplitude;
+      assign unused_amplitude = amplitude_i;
+      assign amplitude = '0;
+      assign ambient = '0;
+      assign shows_amplitude = 1'b0;
+    end
+  endgenerate
+
   logic [WORD_WIDTH-1:0] word;
 
   always_comb begin
@@ -87,6 +111,10 @@ module dtof_stream_output #(
     word[dtof_registers_pkg::RESULT_CONFIDENCE_LSB+:16] = confidence;
     word[dtof_registers_pkg::RESULT_ROW_LSB+:ROW_WIDTH] = row;
     word[dtof_registers_pkg::RESULT_COLUMN_LSB+:COLUMN_WIDTH] = column;
+    if (shows_amplitude) begin
+      word[dtof_registers_pkg::AMPLITUDE_RESULT_AMPLITUDE_LSB+:dtof_registers_pkg::AMPLITUDE_RESULT_AMPLITUDE_WIDTH] = amplitude;
+      word[dtof_registers_pkg::AMPLITUDE_RESULT_AMBIENT_LSB+:dtof_registers_pkg::AMPLITUDE_RESULT_AMBIENT_WIDTH] = ambient;
+    end
     word[dtof_registers_pkg::RESULT_VALID_LSB] = !low && !empty && !masked;
     word[dtof_registers_pkg::RESULT_WEAK_LSB] = low;
     word[dtof_registers_pkg::RESULT_EMPTY_LSB] = empty;
@@ -102,6 +130,8 @@ module dtof_stream_output #(
       | (((ONE << CONFIDENCE_WIDTH) - ONE) << dtof_registers_pkg::RESULT_CONFIDENCE_LSB)
       | (((ONE << ROW_WIDTH) - ONE) << dtof_registers_pkg::RESULT_ROW_LSB)
       | (((ONE << COLUMN_WIDTH) - ONE) << dtof_registers_pkg::RESULT_COLUMN_LSB)
+      | (((ONE << AMPLITUDE_WIDTH) - ONE) << dtof_registers_pkg::AMPLITUDE_RESULT_AMPLITUDE_LSB)
+      | (((ONE << AMBIENT_WIDTH) - ONE) << dtof_registers_pkg::AMPLITUDE_RESULT_AMBIENT_LSB)
       | (ONE << dtof_registers_pkg::RESULT_VALID_LSB) | (ONE << dtof_registers_pkg::RESULT_WEAK_LSB)
       | (ONE << dtof_registers_pkg::RESULT_EMPTY_LSB) | (ONE << dtof_registers_pkg::RESULT_MASKED_LSB)
       | (ONE << dtof_registers_pkg::RESULT_SATURATED_LSB) | (ONE << dtof_registers_pkg::RESULT_SECOND_LSB)

@@ -10,7 +10,8 @@
 // 3. Timestamps of disabled columns, and timestamps outside the time gate, count as no detection.
 // 4. Results leave as words of 64 bits with a status, in the array's order or row by row, or as short words of 32 bits, two in each
 //    beat (OUTPUT.SHORT_WORDS). While the sink waits, the array waits.
-//    With SECOND_TARGET = 1 a frame can also have a word for each pixel's second target. With RAW_HISTOGRAM = 1 a frame can send
+//    With SECOND_TARGET = 1 a frame can also have a word for each pixel's second target. With AMPLITUDE = 1 a frame's words can have
+//    amplitude and ambient in place of row and column. With RAW_HISTOGRAM = 1 a frame can send
 //    histograms of chosen rows instead of results.
 // 5. After the sink has taken a frame's last result, the subsystem raises the interrupt; in continuous mode the next frame has begun
 //    by then. With SETTLE the subsystem drops the acquisitions at a frame's start, in which a laser settles (dtof_settle).
@@ -93,6 +94,8 @@ module dtof_subsystem #(
     parameter int CELL_SHIFT = 9,
     // 1: a result has the position of the label that lost, too
     parameter int SECOND_TARGET = 0,
+    // 1: a result has amplitude and ambient, too
+    parameter int AMPLITUDE = 0,
     // 1: candidates may begin from those that were used in the last frame (`prior_i`)
     parameter int PRIOR = 0,
     // columns that share an engine
@@ -163,13 +166,17 @@ module dtof_subsystem #(
   localparam int POOL_NB = $clog2(dtof_pkg::POOL_COARSE_BINS);
   localparam int POSITION_WIDTH = NP + FRACTION_WIDTH;
   localparam int TARGETS = (SECOND_TARGET != 0) ? 2 : 1;
-  localparam int TARGET_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + KEPT_CONFIDENCE_WIDTH;
+  localparam int AMPLITUDE_WIDTH = (AMPLITUDE != 0) ? dtof_pkg::pool_amplitude_width(ADVANTAGE_WIDTH) : 0;
+  localparam int PLACE_WIDTH = COLUMN_WIDTH + ROW_WIDTH + dtof_pkg::pool_light_width(ADVANTAGE_WIDTH, AMPLITUDE);  // with ambient and amplitude
+  localparam int TARGET_WIDTH = PLACE_WIDTH + POSITION_WIDTH + KEPT_CONFIDENCE_WIDTH;
   localparam int RESULT_WIDTH = TARGET_WIDTH + (TARGETS - 1) * POSITION_WIDTH;
 
   `DTOF_REQUIRE(g_illegal_readout, dtof_pkg::is_readout(READOUT) || POOL != 0,
                 "dtof_subsystem: READOUT must be one of dtof_pkg::READOUT_*")
   `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || POOL != 0,
                 "dtof_subsystem: SECOND_TARGET must be 0, or READOUT must be READOUT_POOLPOINTER")
+  `DTOF_REQUIRE(g_illegal_amplitude, AMPLITUDE == 0 || (POOL != 0 && RASTER_ORDER == 0),
+                "dtof_subsystem: AMPLITUDE must be 0, or READOUT must be READOUT_POOLPOINTER and RASTER_ORDER 0")
   `DTOF_REQUIRE(g_illegal_prior, PRIOR == 0 || POOL != 0,
                 "dtof_subsystem: PRIOR must be 0, or READOUT must be READOUT_POOLPOINTER")
   `DTOF_REQUIRE(g_illegal_raw, RAW_HISTOGRAM == 0 || (POOL == 0 && RASTER_ORDER == 0),
@@ -192,7 +199,7 @@ module dtof_subsystem #(
   // Registers and control of frames.
 
   logic [255:0] coarse_template;
-  logic start, flush, abort, continuous, second, raw, short_words, smooth, prior, begin_frame, running, busy, done, frame;
+  logic start, flush, abort, continuous, second, amplitude, raw, short_words, smooth, prior, begin_frame, running, busy, done, frame;
   logic start_ignored, illegal_schedule, underrun, short_acquisition, long_acquisition, overrun, counter_full, aborted;
   logic timeout, stalled, resetting, in_reset, array_rst_n, flushes;
   logic [23:0] watchdog;
@@ -225,6 +232,7 @@ module dtof_subsystem #(
       .CLOCK_WAITS     (CLOCK_WAITS),
       .SOURCE_WAITS    (SOURCE_WAITS),
       .SECOND_TARGET   (SECOND_TARGET),
+      .AMPLITUDE       (AMPLITUDE),
       .PRIOR           (PRIOR),
       .RAW_HISTOGRAM   (RAW_HISTOGRAM),
       .RAW_BINS        (RAW_BINS),
@@ -276,6 +284,7 @@ module dtof_subsystem #(
       .self_test_seed_o    (test_seed),
       .self_test_expected_o(test_expected),
       .second_o          (second),
+      .amplitude_o       (amplitude),
       .raw_o             (raw),
       .raw_first_o       (raw_first),
       .raw_last_o        (raw_last),
@@ -666,6 +675,7 @@ module dtof_subsystem #(
           .RIVAL_MOVES(RIVAL_MOVES),
           .CELL_SHIFT(CELL_SHIFT),
           .SECOND_TARGET(SECOND_TARGET),
+          .AMPLITUDE(AMPLITUDE),
           .PRIOR(PRIOR),
           .ENGINE_COLUMNS(ENGINE_COLUMNS),
           .ACQ_WIDTH(ACQ_WIDTH),
@@ -768,7 +778,7 @@ module dtof_subsystem #(
       end
 
       dtof_target_words #(
-          .PLACE_WIDTH     (COLUMN_WIDTH + ROW_WIDTH),
+          .PLACE_WIDTH     (PLACE_WIDTH),
           .POSITION_WIDTH  (POSITION_WIDTH),
           .CONFIDENCE_WIDTH(RESULT_CONFIDENCE_WIDTH)
       ) u_target_words (
@@ -793,6 +803,24 @@ module dtof_subsystem #(
       assign target_tdata = result_tdata;
       assign target_second = 1'b0;
       assign target_tlast = result_tlast;
+    end
+  endgenerate
+
+  logic frame_amplitude;
+
+  generate
+    if (AMPLITUDE != 0) begin : g_amplitude
+      logic frame_amplitude_q;
+      always_ff @(posedge clk_i) begin
+        if (begin_frame) begin
+          frame_amplitude_q <= amplitude;
+        end
+      end
+      assign frame_amplitude = frame_amplitude_q;
+    end else begin : g_no_amplitude
+      logic unused_amplitude;
+      assign unused_amplitude = amplitude;
+      assign frame_amplitude = 1'b0;
     end
   endgenerate
 
@@ -834,13 +862,15 @@ module dtof_subsystem #(
       .CONFIDENCE_WIDTH (KEPT_CONFIDENCE_WIDTH),
       .HAS_CONFIDENCE   ((RESULT_CONFIDENCE_WIDTH > 0) ? 1 : 0),
       .COUNTER_WIDTH    ((POOL != 0) ? 0 : RESULT_CONFIDENCE_WIDTH),
-      .RAW_COUNTER_WIDTH(COUNT_WIDTH)
+      .RAW_COUNTER_WIDTH(COUNT_WIDTH),
+      .AMPLITUDE_WIDTH  (AMPLITUDE_WIDTH)
   ) u_stream_output (
       .clk_i          (clk_i),
       .rst_ni         (output_rst_n),
       .weak_below_i   (frame_weak_below_q),
       .enable_i       (frame_enable_q),
       .raw_i          (frame_raw),
+      .amplitude_i    (frame_amplitude),
       .short_i        (frame_short_q),
       .cut_i          (output_cut),
       .result_tvalid_i(target_tvalid && !resetting),

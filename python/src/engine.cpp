@@ -184,6 +184,12 @@ void bind_engine(py::module_& module) {
       .def_property_readonly(
           "second", [](const Results& r) { return r.field(&PixelResult::second); },
           "uint16: second target of poolPointer, else 0. No copy.")
+      .def_property_readonly(
+          "amplitude", [](const Results& r) { return r.field(&PixelResult::amplitude); },
+          "uint16: amplitude of poolPointer, else 0. No copy.")
+      .def_property_readonly(
+          "ambient", [](const Results& r) { return r.field(&PixelResult::ambient); },
+          "uint16: ambient of poolPointer, else 0. No copy.")
       .def_property_readonly("position", &Results::positions, "float64, bins: code and fraction.")
       .def_property_readonly("has_distance", &distance_mask, "bool: True if the pixel has a distance.")
       .def_property_readonly("readout", &Results::parameters)

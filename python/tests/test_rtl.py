@@ -69,7 +69,7 @@ class RtlTest(unittest.TestCase):
         return {entry.name for entry in (Path(self.folder.name) / "cache").iterdir() if entry.is_dir()}
 
     def assert_same(self, rtl: dtof.Results, model: dtof.Results) -> None:
-        for field in ("code", "fraction", "confidence", "second", "position", "has_distance"):
+        for field in ("code", "fraction", "confidence", "second", "amplitude", "ambient", "position", "has_distance"):
             np.testing.assert_array_equal(getattr(rtl, field), getattr(model, field), err_msg=f"{model.readout} {field}")
         self.assertEqual((rtl.columns, rtl.first_row), (model.columns, model.first_row))
 

@@ -25,6 +25,9 @@ fields.COUNT = { bits = [4, 31], access = "constant", help = "people" }
 [result]
 WORD = { bits = [8, 63], help = "all" }
 
+[amplitude_result]
+LIGHT = { bits = [40, 55], help = "part" }
+
 [short_result]
 HALF = { bits = [5, 31], help = "most" }
 """
@@ -40,6 +43,7 @@ class Descriptions(unittest.TestCase):
             (("bits = [8, 15]", "bits = [8, 32]"), "highest of 0 to 31"),
             (("bits = [8, 15]", "bits = [15, 8]"), "lowest and the highest"),
             (("bits = [8, 63]", "bits = [8, 64]"), "highest of 0 to 63"),
+            (("bits = [40, 55]", "bits = [40, 64]"), "amplitude_result.LIGHT: bits must be .* highest of 0 to 63"),
             (("bits = [5, 31]", "bits = [5, 32]"), "short_result.HALF: bits must be .* highest of 0 to 31"),
             (('"setting"', '"command"'), "a command has one bit"),
             (('"setting"', '"wish"'), "access must be one of"),
@@ -58,7 +62,8 @@ class Descriptions(unittest.TestCase):
         for line in ("localparam logic [31:0] VERSION_VALUE = 32'h00020003;",
                      "localparam logic [11:0] DOOR = 12'h010;", "localparam int DOOR_NUMBER = 2;",
                      "localparam int SPEED_WANTED_LSB = 8;", "localparam int SPEED_WANTED_WIDTH = 8;",
-                     "localparam int RESULT_WORD_WIDTH = 56;", "localparam int SHORT_RESULT_HALF_LSB = 5;",
+                     "localparam int RESULT_WORD_WIDTH = 56;", "localparam int AMPLITUDE_RESULT_LIGHT_LSB = 40;",
+                     "localparam int SHORT_RESULT_HALF_LSB = 5;",
                      "is_register = (offset >= 12'h00c && offset <= 12'h014);",
                      "is_writable = offset == 12'h00c;"):  # fmt: skip
             self.assertIn(line, text)
@@ -74,6 +79,7 @@ class Descriptions(unittest.TestCase):
         text = registers.c_header(registers.parse(SMALL))
         for line in ("#define DTOF_SPEED UINT32_C(0x00C)", "#define DTOF_SPEED_WANTED_MASK UINT32_C(0x0000FF00)",
                      "#define DTOF_DOOR_COUNT_LSB 4", "#define DTOF_RESULT_WORD_MASK UINT64_C(0xFFFFFFFFFFFFFF00)",
+                     "#define DTOF_AMPLITUDE_RESULT_LIGHT_MASK UINT64_C(0x00FFFF0000000000)",
                      "#define DTOF_SHORT_RESULT_HALF_MASK UINT32_C(0xFFFFFFE0)"):  # fmt: skip
             self.assertIn(line, text)
 
@@ -82,6 +88,7 @@ class Descriptions(unittest.TestCase):
         self.assertIn("| 0x010 to 0x014 | `DOOR` | | | | who is in |", registers.register_table(whole))
         self.assertIn("| | | 15:8 | `WANTED` | read, write | wanted |", registers.register_table(whole))
         self.assertIn("| 63:8 | `WORD` | all |", registers.result_table(whole.result))
+        self.assertIn("| 55:40 | `LIGHT` | part |", registers.result_table(whole.amplitude_result))
         self.assertIn("| 31:5 | `HALF` | most |", registers.result_table(whole.short_result))
         with self.assertRaisesRegex(FlowError, "no place for the table of registers"):
             registers.page("# A page\n", whole)

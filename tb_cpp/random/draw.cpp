@@ -60,6 +60,7 @@ void draw_pool(Draw& draw, ReadoutParameters& parameters) {
   pool.track_share = draw.from(1, 63 - pool.coarse_share);
   pool.smooth = draw.coin();
   pool.engine_columns = 2 * draw.from(1, 4);
+  pool.amplitude = draw.coin();
 }
 
 void draw_other(Draw& draw, RtlConfiguration& configuration) {

@@ -44,7 +44,9 @@ class ArrayModel {
     const std::uint16_t* result_code;
     const std::uint16_t* result_fraction;
     const std::uint16_t* result_confidence;
-    const std::uint16_t* result_second;  ///< dtof_pool_pointer_array only, else null
+    const std::uint16_t* result_second;  ///< this and the next two: dtof_pool_pointer_array only, else null
+    const std::uint16_t* result_amplitude;
+    const std::uint16_t* result_ambient;
 
     const std::uint8_t*
         probe_write;  ///< write enable of column 0's histogram or pointer SRAM; 0 unless built with PROBE

@@ -20,6 +20,7 @@ module pool_pointer_testbench #(
     parameter CELL_SHIFT = 9,
     parameter TIME_GATE = 0,
     parameter SECOND_TARGET = 0,
+    parameter AMPLITUDE = 0,
     parameter PRIOR = 0,
     parameter ENGINE_COLUMNS = 34,
     parameter BROADCAST_STAGES = 2,
@@ -51,6 +52,8 @@ module pool_pointer_testbench #(
     output logic [         15:0] result_code_o,
     output logic [         15:0] result_fraction_o,
     output logic [         15:0] result_second_o,
+    output logic [         15:0] result_amplitude_o,
+    output logic [         15:0] result_ambient_o,
     output logic [         15:0] result_confidence_o,
     output logic                 probe_write_o,
     output logic [         15:0] probe_address_o,
@@ -62,13 +65,17 @@ module pool_pointer_testbench #(
   localparam POSITION_WIDTH = 16;  // code and fraction
   localparam CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH);
   localparam SECOND_WIDTH = SECOND_TARGET != 0 ? POSITION_WIDTH : 0;
-  localparam RESULT_WIDTH = COLUMN_WIDTH + ROW_WIDTH + SECOND_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH;
+  localparam AMPLITUDE_WIDTH = AMPLITUDE != 0 ? dtof_pkg::pool_amplitude_width(ADVANTAGE_WIDTH) : 0;
+  localparam AMBIENT_WIDTH = AMPLITUDE != 0 ? dtof_pkg::POOL_BACKGROUND_WIDTH : 0;
 
   localparam POSITION_LSB = CONFIDENCE_WIDTH;
   localparam CODE_LSB = POSITION_LSB + POSITION_WIDTH - NP;
   localparam SECOND_LSB = POSITION_LSB + POSITION_WIDTH;
-  localparam ROW_LSB = SECOND_LSB + SECOND_WIDTH;
+  localparam AMPLITUDE_LSB = SECOND_LSB + SECOND_WIDTH;
+  localparam AMBIENT_LSB = AMPLITUDE_LSB + AMPLITUDE_WIDTH;
+  localparam ROW_LSB = AMBIENT_LSB + AMBIENT_WIDTH;
   localparam COLUMN_LSB = ROW_LSB + ROW_WIDTH;
+  localparam RESULT_WIDTH = COLUMN_LSB + COLUMN_WIDTH;
 
   logic [SRAM_NUM*NP-1:0] timestamp;
   logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg, sram_cfg_answer;
@@ -94,6 +101,7 @@ module pool_pointer_testbench #(
       .CELL_SHIFT(CELL_SHIFT),
       .TIME_GATE(TIME_GATE),
       .SECOND_TARGET(SECOND_TARGET),
+      .AMPLITUDE(AMPLITUDE),
       .PRIOR(PRIOR),
       .ENGINE_COLUMNS(ENGINE_COLUMNS),
       .BROADCAST_STAGES(BROADCAST_STAGES),
@@ -137,6 +145,13 @@ module pool_pointer_testbench #(
     assign result_second_o = result[SECOND_LSB+:POSITION_WIDTH];
   end else begin : gen_no_second
     assign result_second_o = '0;
+  end
+  if (AMPLITUDE != 0) begin : gen_amplitude
+    assign result_amplitude_o = 16'(result[AMPLITUDE_LSB+:AMPLITUDE_WIDTH]);
+    assign result_ambient_o = 16'(result[AMBIENT_LSB+:AMBIENT_WIDTH]);
+  end else begin : gen_no_amplitude
+    assign result_amplitude_o = '0;
+    assign result_ambient_o = '0;
   end
   assign result_confidence_o = 16'(result[0+:CONFIDENCE_WIDTH]);
 

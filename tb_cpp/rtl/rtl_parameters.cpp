@@ -31,6 +31,7 @@ constexpr auto kParameters = std::to_array<RtlParameter>({
     {"RIVAL_MOVES", false, true},
     {"CELL_SHIFT", false, true},
     {"SECOND_TARGET", false, true},
+    {"AMPLITUDE", false, true},
     {"PRIOR", false, true},
     {"ENGINE_COLUMNS", false, true},
     {"COARSE_SHARE", false, false},

@@ -317,16 +317,22 @@ class RtlReadout::Simulation {
     return *ports_.done != 0;
   }
 
+  /// Value of a port that not every array has.
+  static std::uint16_t value_of(const std::uint16_t* port) {
+    return port != nullptr ? *port : std::uint16_t{0};
+  }
+
   void observe_result() {
     require(*ports_.result_valid != 0, "result_tvalid_o fell before tready");
-    const Beat beat = {
-        .column = *ports_.result_column,
-        .row = *ports_.result_row,
-        .result = {.code = *ports_.result_code,
-                   .fraction = *ports_.result_fraction,
-                   .confidence = *ports_.result_confidence,
-                   .second = ports_.result_second != nullptr ? *ports_.result_second : std::uint16_t{0}},
-        .last = *ports_.result_last != 0};
+    const Beat beat = {.column = *ports_.result_column,
+                       .row = *ports_.result_row,
+                       .result = {.code = *ports_.result_code,
+                                  .fraction = *ports_.result_fraction,
+                                  .confidence = *ports_.result_confidence,
+                                  .second = value_of(ports_.result_second),
+                                  .amplitude = value_of(ports_.result_amplitude),
+                                  .ambient = value_of(ports_.result_ambient)},
+                       .last = *ports_.result_last != 0};
     require(!pending_beat_ || beat == last_beat_, "result_tdata_o changed before tready");
     last_beat_ = beat;
     pending_beat_ = *ports_.result_ready == 0;

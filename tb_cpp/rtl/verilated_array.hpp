@@ -24,8 +24,12 @@ class VerilatedArray : public ArrayModel {
   [[nodiscard]] Ports ports() override {
     Registers registers;
     const std::uint16_t* second = nullptr;
+    const std::uint16_t* amplitude = nullptr;
+    const std::uint16_t* ambient = nullptr;
     if constexpr (requires { model_.result_second_o; }) {
       second = &model_.result_second_o;
+      amplitude = &model_.result_amplitude_o;
+      ambient = &model_.result_ambient_o;
     }
     const std::uint8_t* counter_full = nullptr;
     if constexpr (requires { model_.counter_full_o; }) {
@@ -74,6 +78,8 @@ class VerilatedArray : public ArrayModel {
             .result_fraction = &model_.result_fraction_o,
             .result_confidence = &model_.result_confidence_o,
             .result_second = second,
+            .result_amplitude = amplitude,
+            .result_ambient = ambient,
             .probe_write = &model_.probe_write_o,
             .probe_address = &model_.probe_address_o,
             .probe_data = &model_.probe_data_o};

@@ -22,8 +22,11 @@ namespace {
 constexpr std::size_t kDescribedMismatches = 5;
 
 std::string to_text(const PixelResult& result) {
-  return fmt::format("code {} fraction {} confidence {}{}", result.code, result.fraction, result.confidence,
-                     result.second != 0 ? fmt::format(" second {}", result.second) : "");
+  return fmt::format("code {} fraction {} confidence {}{}{}", result.code, result.fraction, result.confidence,
+                     result.second != 0 ? fmt::format(" second {}", result.second) : "",
+                     result.amplitude != 0 || result.ambient != 0
+                         ? fmt::format(" amplitude {} ambient {}", result.amplitude, result.ambient)
+                         : "");
 }
 
 std::vector<PixelResult> run_model(const RtlConfiguration& configuration,

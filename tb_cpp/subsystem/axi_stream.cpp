@@ -116,6 +116,7 @@ void ResultSink::observe() {
       frames_.push_back(std::move(current_));
       numbers_.push_back(expected_.front().number);
       short_words_.push_back(expected_.front().short_words);
+      amplitude_.push_back(expected_.front().amplitude);
       current_.clear();
       expected_.pop_front();
     }

@@ -70,12 +70,15 @@ class ResultSink {
   /// are missing.
   [[nodiscard]] const std::vector<std::size_t>& numbers() const { return numbers_; }
   /// Expects a frame of `words` words after those already expected; with `short_words`, of so many short
-  /// words, two in each beat.
-  void expect_frame(std::size_t words, bool short_words) {
-    expected_.push_back({begun_++, short_words ? (words + 1) / 2 : words, short_words});
+  /// words, two in each beat. `amplitude`: words of 64 bits have amplitude and ambient.
+  void expect_frame(std::size_t words, bool short_words, bool amplitude) {
+    expected_.push_back(
+        {begun_++, short_words ? (words + 1) / 2 : words, short_words, amplitude && !short_words});
   }
   /// For each received frame, whether it came in short words.
   [[nodiscard]] const std::vector<bool>& short_words() const { return short_words_; }
+  /// For each received frame, whether its words have amplitude and ambient in place of row and column.
+  [[nodiscard]] const std::vector<bool>& amplitude() const { return amplitude_; }
   void reset() {
     current_.clear();
     expected_.clear();
@@ -98,12 +101,14 @@ class ResultSink {
     std::size_t number;
     std::size_t beats;
     bool short_words;
+    bool amplitude;
   };
 
   std::deque<Expected> expected_;  // frames to come
   std::size_t begun_ = 0;
   std::vector<std::size_t> numbers_;
   std::vector<bool> short_words_;
+  std::vector<bool> amplitude_;
   CounterRandom random_;
   std::vector<std::vector<std::uint64_t>> frames_;
   std::vector<std::uint64_t> current_;

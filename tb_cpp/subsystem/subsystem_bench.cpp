@@ -163,6 +163,7 @@ BusResponse SubsystemBench::write(std::uint32_t offset, std::uint32_t data, std:
         configuration_.parameters.pool.second_target && (data & DTOF_OUTPUT_SECOND_TARGET_MASK) != 0;
     written_.raw = configuration_.raw_histogram && (data & DTOF_OUTPUT_RAW_MASK) != 0;
     written_.short_words = (data & DTOF_OUTPUT_SHORT_WORDS_MASK) != 0;
+    written_.amplitude = configuration_.parameters.pool.amplitude && (data & DTOF_OUTPUT_AMPLITUDE_MASK) != 0;
   }
   if (offset == DTOF_RAW_ROWS && strobe == RegisterBus::kAllBytes) {
     written_.raw_rows = data;
@@ -221,7 +222,7 @@ void SubsystemBench::begin_frame() {
   reference_.set_release(committed_.release);
   reference_.begin();
   if (!frames_.back().self_test) {
-    sink_.expect_frame(words(), committed_.short_words && !committed_.raw);
+    sink_.expect_frame(words(), committed_.short_words && !committed_.raw, committed_.amplitude);
   }
 }
 

@@ -108,6 +108,7 @@ class SubsystemBench {
     bool second = false;
     bool raw = false;
     bool short_words = false;
+    bool amplitude = false;
     std::uint32_t raw_rows = 0;
     std::uint32_t acquisitions = 0;
     std::uint32_t settle = 0;

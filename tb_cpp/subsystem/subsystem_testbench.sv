@@ -67,6 +67,8 @@ module subsystem_testbench #(
     parameter int CELL_SHIFT = 9,
     // 1: a result has the position of the label that lost, too
     parameter int SECOND_TARGET = 0,
+    // 1: a result has amplitude and ambient, too
+    parameter int AMPLITUDE = 0,
     // 1: candidates may begin from those that were used in the last frame (`prior_i`)
     parameter int PRIOR = 0,
     // columns that share an engine
@@ -235,6 +237,7 @@ module subsystem_testbench #(
       .RIVAL_MOVES(RIVAL_MOVES),
       .CELL_SHIFT(CELL_SHIFT),
       .SECOND_TARGET(SECOND_TARGET),
+      .AMPLITUDE(AMPLITUDE),
       .PRIOR(PRIOR),
       .ENGINE_COLUMNS(ENGINE_COLUMNS),
       .COARSE_SHARE(COARSE_SHARE),

@@ -175,12 +175,12 @@ std::string ReadoutParameters::to_string() const {
     const bool has_template = pool.coarse_template != PoolTemplate{};
     return out + fmt::format(
                      " COUNT_WIDTH={} G={} LABELS={}x{} OFFSET={} COUNT={} SHIFT={} RIVAL={} CELL_SHIFT={} "
-                     "ENGINE_COLUMNS={} SHARES={},{} S1={}{}{}{}",
+                     "ENGINE_COLUMNS={} SHARES={},{} S1={}{}{}{}{}",
                      count_width, pool.group_size, pool.labels, pool.score_bits, pool.offset_bits,
                      pool.count_bits, pool.pointer_shift, pool.rival_moves ? "moves" : "stays",
                      pool.cell_shift, pool.engine_columns, pool.coarse_share, pool.track_share,
                      pool.smooth ? 1 : 0, pool.second_target ? " SECOND_TARGET=1" : "",
-                     pool.prior ? " PRIOR=1" : "",
+                     pool.amplitude ? " AMPLITUDE=1" : "", pool.prior ? " PRIOR=1" : "",
                      has_template ? fmt::format(" TEMPLATE={}", fmt::join(pool.coarse_template, ",")) : "");
   }
   if (has_parameter(readout, "NB")) {

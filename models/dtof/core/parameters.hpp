@@ -44,6 +44,8 @@ struct PoolPointerParameters {
   int cell_shift = 9;
   /// SECOND_TARGET: 1: a result has the position of the label that lost, too
   bool second_target = false;
+  /// AMPLITUDE: 1: a result has amplitude and ambient, too
+  bool amplitude = false;
   /// PRIOR: 1: candidates may begin from those that were used in the last frame (`prior_i`)
   bool prior = false;
   /// ENGINE_COLUMNS: columns that share an engine

@@ -214,6 +214,9 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (parameter == "SECOND_TARGET") {
     return 0;
   }
+  if (parameter == "AMPLITUDE") {
+    return 0;
+  }
   if (parameter == "PRIOR") {
     return 0;
   }

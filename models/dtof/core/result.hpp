@@ -13,6 +13,10 @@ struct PixelResult {
   /// Position of the losing label, code and fraction as one number. 0 unless poolPointer runs with
   /// SECOND_TARGET.
   std::uint16_t second = 0;
+  /// Counts of the target's light; 0 if the pixel's rival won. Amplitude and ambient are 0 unless poolPointer
+  /// runs with AMPLITUDE (docs/reference/poolpointer.md).
+  std::uint16_t amplitude = 0;
+  std::uint16_t ambient = 0;  ///< background B of the pixel's group
 
   bool operator==(const PixelResult&) const = default;
 };

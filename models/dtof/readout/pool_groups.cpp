@@ -40,6 +40,7 @@ PoolPointerParameters PoolNumbers::common() const {
           .rival_moves = rival_moves != 0,
           .cell_shift = cell_shift,
           .second_target = second_target,
+          .amplitude = amplitude,
           .prior = keeps_prior,
           .engine_columns = engine_columns,
           .coarse_share = coarse_share,

@@ -278,6 +278,16 @@ std::vector<std::array<int, kMostLabels>> chain_beliefs(std::span<const ChainNod
   return beliefs;
 }
 
+int pool_amplitude(int advantage, int count_bits) {
+  const int half = 1 << (count_bits - 1);
+  const int three_quarters = half + half / 2;
+  if (advantage < half) {
+    return advantage;
+  }
+  const int counts = half + 4 * (std::min(advantage, three_quarters) - half);
+  return counts + 16 * std::max(advantage - three_quarters, 0);
+}
+
 std::uint16_t pool_word(std::int32_t position, unsigned fraction_bits) {
   // The code's fraction counts from its low end; its middle is what a timestamp stands for.
   const auto half_bin = static_cast<std::int32_t>((1U << fraction_bits) >> 1U);

@@ -142,6 +142,10 @@ struct ChainNode {
 /// bin apart.
 std::vector<std::array<int, kMostLabels>> chain_beliefs(std::span<const ChainNode> chain);
 
+/// Counts that an advantage of `count_bits` bits stands for. It counts every hit below half of its range,
+/// every fourth below three quarters, and every sixteenth above.
+int pool_amplitude(int advantage, int count_bits);
+
 /// Code and fraction of a position as one number.
 std::uint16_t pool_word(std::int32_t position, unsigned fraction_bits);
 /// Result of a winner at `position`.

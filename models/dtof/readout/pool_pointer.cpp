@@ -165,6 +165,7 @@ PoolWinners start_together(std::vector<PoolPointerWord>& words, std::size_t colu
   for (std::size_t row = 0; row < words.size(); ++row) {
     alone.push_back({.position = words[row].pointer,
                      .lost = 0,
+                     .advantage = words[row].advantage,
                      .margin = words[row].advantage,
                      .background = groups.at(column, row).background});
   }
@@ -279,6 +280,7 @@ PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column
     const PoolGroup& group = groups.at(column, row);
     winners.push_back({.position = chain[row].position[winner],
                        .lost = chain[row].position[1 - winner],
+                       .advantage = winner == 0 ? words[row].advantage : 0,
                        .margin = margin,
                        .background = group.background,
                        .significance = significance_near(group, chain[row].position[winner], parameters),
@@ -443,6 +445,11 @@ std::vector<std::vector<PixelResult>> run_pool_pointer(int count, const ColumnRe
             pool_result(parameters.smooth ? smoothed[row] : winner.position, confidences[row], fraction_bits);
         if (parameters.second_target) {
           result.second = pool_word(winner.lost, fraction_bits);
+        }
+        if (parameters.amplitude) {
+          result.amplitude =
+              static_cast<std::uint16_t>(pool_amplitude(winner.advantage, parameters.count_bits));
+          result.ambient = static_cast<std::uint16_t>(winner.background);
         }
         pixels.push_back(result);
       }

@@ -73,6 +73,7 @@ struct PoolNumbers {
 
   bool keeps_prior = false;    ///< the array has PRIOR = 1, whose group words have less room
   bool second_target = false;  ///< results also have the position of the losing label, before S1
+  bool amplitude = false;      ///< results also have amplitude and ambient
 
   /// Throws InputError if a parameter is outside its range.
   void validate() const;
@@ -130,6 +131,7 @@ void track_event(PoolTracks& word, const PoolGroup& group, const PoolEvent& even
 struct PoolWinner {
   std::int32_t position;  ///< units
   std::int32_t lost;      ///< position of the losing label, units
+  int advantage;          ///< n of the leader; 0 if the rival wins
   int margin;             ///< belief of the leader minus the rival's
   int background;         ///< background B of its group
   int significance = 0;   ///< significance of its group's candidates near the position

@@ -54,6 +54,7 @@ void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acq
     parameters.coarse_share = open.coarse;
     parameters.track_share = open.track;
     parameters.second_target = open.second_target;
+    parameters.amplitude = open.amplitude;
     std::ranges::transform(open.taken, parameters.coarse_template.begin(),
                            [](int entry) { return static_cast<std::uint8_t>(entry); });
     const auto actual = read_array(array, np, static_cast<std::uint32_t>(acquisitions), parameters);
@@ -293,6 +294,7 @@ TEST_F(PoolPointer, VideosAsReference) {
   PoolNumbers parameters;
   parameters.engine_columns = 4;
   parameters.keeps_prior = true;
+  parameters.amplitude = true;
   std::size_t changed = 0;
   for (int video = 0; video < 6; ++video) {
     const int rows = 5 + pick(draw, 12);

@@ -58,6 +58,7 @@ class PoolReference {
     bool smooth = true;
     bool lean = false;  ///< the numbers of poolPointer lean
     bool second_target = false;
+    bool amplitude = true;
     int cell = 512;               ///< positions of a settled pointer's cell
     bool prior = false;           ///< the array has PRIOR = 1
     std::array<int, 32> taken{};  ///< fours that a bin's sum loses
@@ -150,6 +151,9 @@ class PoolReference {
   void decide(int c);
 
   int confidence(Place place);
+
+  /// How many counts an advantage stands for.
+  [[nodiscard]] int counts(int n) const;
 
   PixelResult result(Place place);
 

@@ -347,6 +347,15 @@ int PoolReference::confidence(Place place) {
   return weight + std::min(127, above / sky->parts[0] + above / sky->parts[1]);
 }
 
+int PoolReference::counts(int n) const {
+  int sum = 0;
+  for (int reached = 0; reached < n; ++reached) {
+    const int eighths = 8 * reached / (open_.lean ? 16 : 128);
+    sum += eighths < 4 ? 1 : eighths < 6 ? 4 : 16;
+  }
+  return sum;
+}
+
 PixelResult PoolReference::result(Place place) {
   const Pixel& pixel = pixels_.at(place);
   int position = pixel.winner;
@@ -356,9 +365,12 @@ PixelResult PoolReference::result(Place place) {
   const int scale = 1 << (16 - np_);
   const auto limited = [&](int x) { return std::clamp(x - scale / 2, 0, 65536 - scale - 1); };
   const int word = limited(position);
-  return {static_cast<std::uint16_t>(word / scale), static_cast<std::uint16_t>(word % scale),
+  return {static_cast<std::uint16_t>(word / scale),
+          static_cast<std::uint16_t>(word % scale),
           static_cast<std::uint16_t>(confidence(place)),
-          static_cast<std::uint16_t>(open_.second_target ? limited(pixel.loser) : 0)};
+          static_cast<std::uint16_t>(open_.second_target ? limited(pixel.loser) : 0),
+          static_cast<std::uint16_t>(open_.amplitude && pixel.margin >= 0 ? counts(pixel.n) : 0),
+          static_cast<std::uint16_t>(open_.amplitude ? group(place).b : 0)};
 }
 
 }  // namespace dtof

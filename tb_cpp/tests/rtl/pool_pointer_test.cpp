@@ -301,6 +301,12 @@ TEST(PoolPointerSweep, EveryValueOccurs) {
   }
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.second_target ? 1 : 0; }),
               IsSupersetOf({0, 1}));
+  for (const Readout readout : {Readout::kPoolPointer, Readout::kPoolPointerLean}) {
+    EXPECT_THAT(values([&](const C& c) {
+                  return c.parameters.readout == readout && c.parameters.pool.amplitude ? 1 : 0;
+                }),
+                IsSupersetOf({0, 1}));
+  }
   for (const bool prior : {false, true}) {
     SCOPED_TRACE(testing::Message() << "prior " << prior);
     const auto with = [&](const std::function<int(const C&)>& field) {

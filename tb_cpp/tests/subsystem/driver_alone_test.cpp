@@ -288,6 +288,53 @@ TEST(DriverAlone, TakesShortFramesThatAreWhole) {
   EXPECT_EQ(dtof_check_frame(&device, &aborted, 1, &frame), DTOF_ABORTED);
 }
 
+TEST(DriverAlone, TakesAmplitudesOfWholeFrames) {
+  dtof_device device{};
+  device.columns = 3;
+  device.rows = 1;
+  device.has_schedule = true;
+  device.engine_columns = 2;  // columns 0, 2, 1
+  const auto result = [](std::uint64_t position, std::uint64_t amplitude, std::uint64_t ambient) {
+    return DTOF_RESULT_VALID_MASK | ambient << 44U | amplitude << 32U | std::uint64_t{7} << 16U | position;
+  };
+  std::vector<dtof_result> results(3);
+  const auto unpack = [&](const std::vector<std::uint64_t>& words) {
+    return dtof_unpack_amplitude_frame(&device, words.data(), words.size(), results.data());
+  };
+  const std::vector<std::uint64_t> words = {result(10, 688, 39), result(11, 0, 0), result(12, 4095, 4094)};
+  ASSERT_EQ(unpack(words), DTOF_OK);
+  EXPECT_EQ(results[0].amplitude, 688);
+  EXPECT_EQ(results[0].ambient, 39);
+  EXPECT_EQ(results[2].position, 11);
+  EXPECT_EQ(results[2].column, 2);
+  EXPECT_TRUE(results[2].has_amplitude);
+  EXPECT_EQ(results[1].amplitude, 4095);
+  EXPECT_EQ(results[1].ambient, 4094);
+  EXPECT_EQ(results[1].confidence, 7);
+  EXPECT_EQ(unpack({words[0], words[1]}), DTOF_STREAM) << "not whole";
+  EXPECT_EQ(unpack({}), DTOF_STREAM);
+  EXPECT_EQ(unpack({words[0], DTOF_RESULT_ABORTED_MASK}), DTOF_ABORTED);
+  EXPECT_EQ(unpack({words[0], words[1], words[2] | DTOF_RESULT_RAW_MASK}), DTOF_STREAM) << "a raw word";
+  EXPECT_EQ(unpack({words[0], words[1] | DTOF_RESULT_SECOND_MASK, words[2]}), DTOF_STREAM)
+      << "a second target of one pixel";
+  const auto second = [&](std::size_t i) { return DTOF_RESULT_SECOND_MASK | (words[i] + 10); };
+  std::vector<std::uint64_t> both = {words[0], second(0), words[1], second(1), words[2], second(2)};
+  ASSERT_EQ(unpack(both), DTOF_OK);
+  EXPECT_EQ(results[1].second_position, 22);
+  EXPECT_EQ(dtof_second(&results[1]).amplitude, 4095);
+  both[3] ^= std::uint64_t{1} << 32U;
+  EXPECT_EQ(unpack(both), DTOF_STREAM) << "another pixel's amplitude";
+  both[3] ^= std::uint64_t{1} << 32U | std::uint64_t{1} << 44U;
+  EXPECT_EQ(unpack(both), DTOF_STREAM) << "another pixel's ambient";
+  // Other words have none.
+  ASSERT_EQ(dtof_unpack_short(DTOF_SHORT_RESULT_VALID_MASK, results.data()), DTOF_OK);
+  EXPECT_FALSE(results[0].has_amplitude);
+  EXPECT_EQ(results[0].amplitude, 0);
+  ASSERT_EQ(dtof_unpack(&device, 10, results.data() + 1), DTOF_OK);
+  EXPECT_FALSE(results[1].has_amplitude);
+  EXPECT_EQ(results[1].ambient, 0);
+}
+
 TEST(DriverAlone, ATableOfOnePointIsThatDistance) {
   const dtof_device device{};
   const dtof_result result{};

@@ -46,6 +46,7 @@ TEST_P(Driver, FindsWhatIsThere) {
   EXPECT_EQ(device_.has_schedule, is_pool_readout(configuration.parameters.readout));
   EXPECT_EQ(device_.has_gate, configuration.parameters.time_gate.has_value());
   EXPECT_EQ(device_.has_second_target, configuration.parameters.pool.second_target);
+  EXPECT_EQ(device_.has_amplitude, configuration.parameters.pool.amplitude);
   EXPECT_EQ(device_.has_prior, configuration.parameters.pool.prior);
   EXPECT_EQ(device_.has_raw_histogram, configuration.raw_histogram);
   EXPECT_EQ(device_.has_parity, (bench_.get(DTOF_READOUT) & DTOF_READOUT_PARITY_MASK) != 0);
@@ -112,7 +113,8 @@ class DriverFrames : public Driver {
             .second_target = device_.has_second_target && frame % 2 == 0,
             .smooth = frame % 4 < 2,
             .prior = device_.has_prior && frame % 4 != 2,
-            .short_words = frame % 3 == 1};
+            .short_words = frame % 3 == 1,
+            .amplitude = device_.has_amplitude && frame % 4 != 3};
   }
 
   /// Writes all settings but the template by the driver.
@@ -125,6 +127,7 @@ class DriverFrames : public Driver {
     chosen.smooth = settings.smooth;
     chosen.prior = settings.prior;
     chosen.short_words = settings.short_words;
+    chosen.amplitude = settings.amplitude;
     std::vector<std::uint32_t> mask((columns() + 31) / 32);
     for (std::size_t i = 0; i < columns(); ++i) {
       mask[i / 32] |= settings.enabled[i] ? 1U << (i % 32) : 0U;
@@ -168,6 +171,7 @@ class DriverFrames : public Driver {
   void expect_result(const dtof_result& of_pixel, const ResultFields& expected,
                      const FrameSettings& settings) {
     ASSERT_EQ(of_pixel.has_second, settings.second_target);
+    ASSERT_EQ(of_pixel.has_amplitude, settings.amplitude && !settings.short_words);
     const dtof_result result = expected.second ? dtof_second(&of_pixel) : of_pixel;
     const ResultFields fields{.position = result.position,
                               .confidence = result.confidence,
@@ -178,7 +182,9 @@ class DriverFrames : public Driver {
                               .empty = result.empty,
                               .masked = result.masked,
                               .saturated = result.saturated,
-                              .second = expected.second};
+                              .second = expected.second,
+                              .amplitude = result.amplitude,
+                              .ambient = result.ambient};
     ASSERT_EQ(fields, expected);
     const double position = expected.position / static_cast<double>(1 << device_.fraction_bits);
     EXPECT_NEAR(dtof_distance_mm(&device_, &result, points_.data(), points_.size()),
@@ -217,7 +223,9 @@ TEST_P(DriverFrames, AreReadInMillimetres) {
 
     const std::vector<std::uint64_t>& words = bench_.sink().frames().back();
     std::vector<dtof_result> results(columns() * static_cast<std::size_t>(configuration().pixels_per_sram));
-    const auto unpack = settings.short_words ? dtof_unpack_short_frame : dtof_unpack_frame;
+    const auto unpack = settings.short_words ? dtof_unpack_short_frame
+                        : settings.amplitude ? dtof_unpack_amplitude_frame
+                                             : dtof_unpack_frame;
     ASSERT_EQ(unpack(&device_, words.data(), words.size(), results.data()), DTOF_OK);
     for (const ResultFields& expected : expected_results(bench_, settings, lines, &priors)) {
       const std::size_t pixel =
@@ -426,6 +434,7 @@ TEST_P(Driver, RefusesWhatTheHardwareCannotTake) {
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.gate_end = 5000; }), device_.has_gate);
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.second_target = true; }),
             !device_.has_second_target);
+  EXPECT_EQ(refused([](dtof_settings& settings) { settings.amplitude = true; }), !device_.has_amplitude);
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.prior = true; }), !device_.has_prior);
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.raw = true; }), !device_.has_raw_histogram);
   EXPECT_TRUE(refused([](dtof_settings& settings) {

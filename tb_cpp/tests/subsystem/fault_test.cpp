@@ -181,6 +181,7 @@ TEST_P(StreamFaults, AnAbortEndsAFrameInAnyClock) {
     settings.second_target = pick(random, 2) == 0;
     settings.prior = pick(random, 2) == 0;
     settings.short_words = pick(random, 2) == 0;
+    settings.amplitude = pick(random, 2) == 0;
     write_settings(bench_, settings);
     push(beats_of(bright_lines(bench_.configuration(), 4, random)));
     bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.5;

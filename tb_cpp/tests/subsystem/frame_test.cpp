@@ -21,7 +21,8 @@ FrameSettings random_settings(const RtlConfiguration& configuration, CounterRand
                          .raw = pick(random, 2) == 0,
                          .smooth = pick(random, 2) == 0,
                          .prior = pick(random, 4) != 0,
-                         .short_words = pick(random, 2) == 0};
+                         .short_words = pick(random, 2) == 0,
+                         .amplitude = pick(random, 2) == 0};
   settings.raw_first = pick(random, configuration.pixels_per_sram);
   settings.raw_last = settings.raw_first + pick(random, configuration.pixels_per_sram - settings.raw_first);
   if (pick(random, 3) == 0) {

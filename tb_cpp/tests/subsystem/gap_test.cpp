@@ -36,6 +36,7 @@ class Gaps : public Subsystem {
     settings.raw = pick(random, 4) == 0;
     settings.raw_last = pick(random, configuration.pixels_per_sram);
     settings.prior = pick(random, 2) == 0;
+    settings.amplitude = pick(random, 2) == 0;
     return settings;
   }
 

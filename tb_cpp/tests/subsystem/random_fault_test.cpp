@@ -106,6 +106,7 @@ class RandomStreamFaults : public StreamFaults {
     settings.prior = pick(random, 2) == 0;
     settings.settle = pick(random, 2) == 0 ? 0 : static_cast<std::uint32_t>(1 + pick(random, 4));
     settings.short_words = pick(random, 2) == 0;
+    settings.amplitude = pick(random, 2) == 0;
     write_settings(bench_, settings);
     bench_.set(DTOF_RELEASE, pick(random, 2) == 0 ? static_cast<std::uint32_t>(most_release_)
                                                   : 1 + random() % static_cast<std::uint32_t>(most_release_));

@@ -22,6 +22,8 @@ TEST_P(Subsystem, SaysWhatItIs) {
             parameters.time_gate ? 1U : 0U);
   EXPECT_EQ(field(readout, DTOF_READOUT_SECOND_TARGET_MASK, DTOF_READOUT_SECOND_TARGET_LSB),
             parameters.pool.second_target ? 1U : 0U);
+  EXPECT_EQ(field(readout, DTOF_READOUT_AMPLITUDE_MASK, DTOF_READOUT_AMPLITUDE_LSB),
+            parameters.pool.amplitude ? 1U : 0U);
   EXPECT_EQ(field(readout, DTOF_READOUT_PRIOR_MASK, DTOF_READOUT_PRIOR_LSB), parameters.pool.prior ? 1U : 0U);
   EXPECT_EQ(field(readout, DTOF_READOUT_RAW_HISTOGRAM_MASK, DTOF_READOUT_RAW_HISTOGRAM_LSB),
             configuration.raw_histogram ? 1U : 0U);

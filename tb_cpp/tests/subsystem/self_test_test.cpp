@@ -16,14 +16,17 @@ namespace {
 constexpr std::uint64_t kMostClocks = 400000;
 constexpr std::uint32_t kMostReads = 1000000;
 
-std::uint64_t word_of(const ResultFields& fields) {
+std::uint64_t word_of(const ResultFields& fields, bool amplitude) {
   const auto field = [](int value, int lsb) { return static_cast<std::uint64_t>(value) << lsb; };
+  const std::uint64_t place =
+      amplitude ? field(fields.amplitude, 32) | field(fields.ambient, 44)
+                : field(fields.row, DTOF_RESULT_ROW_LSB) | field(fields.column, DTOF_RESULT_COLUMN_LSB);
   return field(fields.position, DTOF_RESULT_POSITION_LSB) |
-         field(fields.confidence, DTOF_RESULT_CONFIDENCE_LSB) | field(fields.row, DTOF_RESULT_ROW_LSB) |
-         field(fields.column, DTOF_RESULT_COLUMN_LSB) | (fields.valid ? DTOF_RESULT_VALID_MASK : 0) |
-         (fields.weak ? DTOF_RESULT_WEAK_MASK : 0) | (fields.empty ? DTOF_RESULT_EMPTY_MASK : 0) |
-         (fields.masked ? DTOF_RESULT_MASKED_MASK : 0) | (fields.saturated ? DTOF_RESULT_SATURATED_MASK : 0) |
-         (fields.second ? DTOF_RESULT_SECOND_MASK : 0) | (fields.raw ? DTOF_RESULT_RAW_MASK : 0);
+         field(fields.confidence, DTOF_RESULT_CONFIDENCE_LSB) | place |
+         (fields.valid ? DTOF_RESULT_VALID_MASK : 0) | (fields.weak ? DTOF_RESULT_WEAK_MASK : 0) |
+         (fields.empty ? DTOF_RESULT_EMPTY_MASK : 0) | (fields.masked ? DTOF_RESULT_MASKED_MASK : 0) |
+         (fields.saturated ? DTOF_RESULT_SATURATED_MASK : 0) | (fields.second ? DTOF_RESULT_SECOND_MASK : 0) |
+         (fields.raw ? DTOF_RESULT_RAW_MASK : 0);
 }
 
 std::vector<Line> self_test_lines(const RtlConfiguration& configuration, std::uint32_t acquisitions,
@@ -97,7 +100,7 @@ class SelfTest : public testing::TestWithParam<CompiledSubsystem> {
     std::vector<std::uint64_t> words;
     for (const ResultFields& fields : expected_results(
              bench_, settings, self_test_lines(configuration(), settings.acquisitions, seed), priors)) {
-      words.push_back(word_of(fields));
+      words.push_back(word_of(fields, settings.amplitude && configuration().parameters.pool.amplitude));
     }
     return dtof_crc(words.data(), words.size());
   }
@@ -159,6 +162,7 @@ TEST_P(SelfTest, UsesTheSettingsThatWereWrittenLast) {
     settings.raw = pick(random, 3) == 0;
     settings.raw_last = configuration().pixels_per_sram - 1;
     settings.prior = pick(random, 2) == 0;
+    settings.amplitude = pick(random, 2) == 0;
     settings.settle = 3;  // no acquisition of a self-test is dropped
     if (configuration().parameters.readout == Readout::kHisPointer && configuration().raw_histogram) {
       settings.weak_below = 0;

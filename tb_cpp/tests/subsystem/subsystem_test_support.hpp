@@ -34,6 +34,8 @@ struct ResultFields {
   bool saturated = false;
   bool second = false;
   bool raw = false;
+  int amplitude = 0;
+  int ambient = 0;
 
   bool operator==(const ResultFields&) const = default;
 };
@@ -43,7 +45,8 @@ inline void PrintTo(const ResultFields& fields, std::ostream* stream) {
           << " confidence " << fields.confidence << (fields.valid ? " valid" : "")
           << (fields.weak ? " weak" : "") << (fields.empty ? " empty" : "")
           << (fields.masked ? " masked" : "") << (fields.saturated ? " saturated" : "")
-          << (fields.second ? " second" : "") << (fields.raw ? " raw" : "");
+          << (fields.second ? " second" : "") << (fields.raw ? " raw" : "") << " amplitude "
+          << fields.amplitude << " ambient " << fields.ambient;
 }
 
 inline ResultFields fields_of(std::uint64_t word) {
@@ -59,6 +62,17 @@ inline ResultFields fields_of(std::uint64_t word) {
           .saturated = (word & DTOF_RESULT_SATURATED_MASK) != 0,
           .second = (word & DTOF_RESULT_SECOND_MASK) != 0,
           .raw = (word & DTOF_RESULT_RAW_MASK) != 0};
+}
+
+/// Fields of a word with amplitude and ambient, which has neither row nor column.
+inline ResultFields fields_of_amplitude(std::uint64_t word) {
+  const auto field = [&](std::uint64_t mask, int lsb) { return static_cast<int>((word & mask) >> lsb); };
+  ResultFields fields = fields_of(word);
+  fields.row = 0;
+  fields.column = 0;
+  fields.amplitude = field(DTOF_AMPLITUDE_RESULT_AMPLITUDE_MASK, DTOF_AMPLITUDE_RESULT_AMPLITUDE_LSB);
+  fields.ambient = field(DTOF_AMPLITUDE_RESULT_AMBIENT_MASK, DTOF_AMPLITUDE_RESULT_AMBIENT_LSB);
+  return fields;
 }
 
 /// Largest confidence of a short word, to which larger ones are clipped.
@@ -89,6 +103,7 @@ struct FrameSettings {
   bool smooth = true;          ///< likewise
   bool prior = false;          ///< likewise
   bool short_words = false;    ///< without effect on a raw frame
+  bool amplitude = false;      ///< without effect where there is none, and on short words
   int raw_first = 0;
   int raw_last = 0;
   PoolTemplate coarse_template{};  ///< without effect where there is none
@@ -102,6 +117,7 @@ struct FrameSettings {
 inline std::uint32_t existing_outputs(const RtlConfiguration& configuration) {
   const ReadoutParameters& parameters = configuration.parameters;
   return DTOF_OUTPUT_SHORT_WORDS_MASK | (parameters.pool.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
+         (parameters.pool.amplitude ? DTOF_OUTPUT_AMPLITUDE_MASK : 0) |
          (parameters.pool.prior ? DTOF_OUTPUT_PRIOR_MASK : 0) |
          (configuration.raw_histogram ? DTOF_OUTPUT_RAW_MASK : 0) |
          (is_pool_readout(parameters.readout) ? DTOF_OUTPUT_SMOOTH_MASK : 0);
@@ -126,6 +142,7 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
                 ((settings.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
                  (settings.raw ? DTOF_OUTPUT_RAW_MASK : 0) | (settings.smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0) |
                  (settings.prior ? DTOF_OUTPUT_PRIOR_MASK : 0) |
+                 (settings.amplitude ? DTOF_OUTPUT_AMPLITUDE_MASK : 0) |
                  (settings.short_words ? DTOF_OUTPUT_SHORT_WORDS_MASK : 0)));
   if (configuration.raw_histogram) {
     bench.set(DTOF_RAW_ROWS, static_cast<std::uint32_t>(settings.raw_first) << DTOF_RAW_ROWS_FIRST_LSB |
@@ -245,6 +262,10 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
     fields.valid = !fields.weak && !fields.empty && !fields.masked;
     fields.confidence =
         settings.short_words ? std::min(fields.confidence, kLargestShortConfidence) : fields.confidence;
+    if (settings.amplitude && !settings.short_words) {
+      fields.amplitude = result.amplitude;
+      fields.ambient = result.ambient;
+    }
     expected.push_back(fields);
     if (settings.second_target && parameters.pool.second_target) {
       fields.position = result.second;
@@ -270,6 +291,18 @@ inline std::vector<ResultAddress> stream_order(const SubsystemBench& bench) {
   return order;
 }
 
+/// Gives results their rows and columns, which follow from the order. Of a result too many, row and column
+/// are -1.
+inline void place_in_order(std::vector<ResultFields>& received, const SubsystemBench& bench) {
+  const std::vector<ResultAddress> order = stream_order(bench);
+  std::size_t pixel = 0;
+  for (std::size_t i = 0; i < received.size(); ++i) {
+    pixel += i > 0 && !received[i].second ? 1 : 0;
+    received[i].row = pixel < order.size() ? order[pixel].row : -1;
+    received[i].column = pixel < order.size() ? order[pixel].column : -1;
+  }
+}
+
 /// Results of a frame of short words; their order gives row and column. Of a padding, or a result too many,
 /// row and column are -1.
 inline std::vector<ResultFields> short_results(const SubsystemBench& bench,
@@ -281,13 +314,18 @@ inline std::vector<ResultFields> short_results(const SubsystemBench& bench,
       received.push_back(fields_of_short(static_cast<std::uint32_t>(beat >> 32U)));
     }
   }
-  const std::vector<ResultAddress> order = stream_order(bench);
-  std::size_t pixel = 0;
-  for (std::size_t i = 0; i < received.size(); ++i) {
-    pixel += i > 0 && !received[i].second ? 1 : 0;
-    received[i].row = pixel < order.size() ? order[pixel].row : -1;
-    received[i].column = pixel < order.size() ? order[pixel].column : -1;
+  place_in_order(received, bench);
+  return received;
+}
+
+/// Results of words with amplitude and ambient.
+inline std::vector<ResultFields> amplitude_results(const SubsystemBench& bench,
+                                                   const std::vector<std::uint64_t>& words) {
+  std::vector<ResultFields> received;
+  for (const std::uint64_t word : words) {
+    received.push_back(fields_of_amplitude(word));
   }
+  place_in_order(received, bench);
   return received;
 }
 
@@ -295,6 +333,9 @@ inline std::vector<ResultFields> received_results(const SubsystemBench& bench, s
   const std::vector<std::uint64_t>& words = bench.sink().frames().at(frame);
   if (bench.sink().short_words().at(frame)) {
     return short_results(bench, words);
+  }
+  if (bench.sink().amplitude().at(frame)) {
+    return amplitude_results(bench, words);
   }
   std::vector<ResultFields> received;
   for (const std::uint64_t word : words) {
