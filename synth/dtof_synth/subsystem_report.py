@@ -7,7 +7,7 @@ import csv
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from . import line_buffer
+from . import line_buffer, subsystem_power
 from .goals import Goal
 from .subsystem import CORNERS, MODES, TOP, Subsystem
 
@@ -85,6 +85,19 @@ def _late_rows(found: Sequence[Subsystem]) -> list[list[str]]:
     return [[TITLES.get(name, f"`{name}`"), *(f"{one.late[name]:+.3f}" if name in one.late else "-" for one in found)] for name in names]
 
 
+def _power_rows(found: Sequence[Subsystem]) -> list[list[str]]:
+    return [[one.configuration.title, *(f"{value:.2f}" for value in (
+        one.power.streaming.logic, one.power.streaming.clock, one.power.streaming.leakage, one.power.streaming.total,
+        one.power.results.logic, one.power.results.clock, one.power.results.total, one.power.idle))] for one in found]
+
+
+def _power_part_rows(found: Sequence[Subsystem]) -> list[list[str]]:
+    """A row per module that takes at least 0.005 mW around some array, the largest first."""
+    most = {name: max(one.power.modules.get(name, 0.0) for one in found) for one in found for name in one.power.modules}
+    return [[OWN if name == TOP else f"`{name}`", *(f"{one.power.modules.get(name, 0.0):.2f}" for one in found)]
+            for name in sorted(most, key=lambda name: -most[name]) if most[name] >= 0.005]
+
+
 def _pessimism(found: Sequence[Subsystem]) -> str:
     """What makes slacks smaller than they could be."""
     text = "Each module is mapped alone, so no logic is optimised across borders of modules."
@@ -107,8 +120,7 @@ def report(found: Sequence[Subsystem], digest: str) -> str:
         "# Subsystem", "", _answer(found), "",
         f"Written by `make synth-subsystem`: `{TOP}` with its default parameters around each array, library `generic40`, "
         f"{found[0].target_mhz:g} MHz; inputs `{digest[:12]}`. Generated libraries from public figures, not sign-off: "
-        "[docs/reference/technology.md](../docs/reference/technology.md). This page has no power: the activity of the subsystem is not "
-        "simulated.", "",
+        "[docs/reference/technology.md](../docs/reference/technology.md).", "",
         "## Area", "",
         "The array's area is that of [area.md](area.md). Subsystem: all cells around the array, with buffers and clock gates, without the "
         "clock tree. By default the subsystem has no raster buffer and no SRAM.", "",
@@ -132,6 +144,17 @@ def report(found: Sequence[Subsystem], digest: str) -> str:
         "Edges: OpenSTA compares the transition at every pin with the library's max_transition, in three corners. Loads: those of the nets "
         "inside modules, with the wire load, compared with max_capacitance and with a number of inputs; nets between modules are not "
         "compared.", "",
+        "## Power", "",
+        f"mW of `{TOP}` without the array, typical corner, {found[0].target_mhz:g} MHz. Power of the array: [power.md](power.md). The "
+        "netlist of the timing is simulated with the RTL of the array inside, and every transition of every net is counted: "
+        f"{subsystem_power.ACQUISITIONS} acquisitions of the scene `{subsystem_power.SCENE}` at {subsystem_power.KLUX:g} klux, a line in every "
+        f"clock, then the first {subsystem_power.MOST_RESULTS} results, which must be those of the model. Logic: nets and cells. Clock: pins of "
+        "flip-flops and clock gates, an estimated tree, and what runs behind clock gates. Idle: no line, no register access, no clock gate "
+        "open. There are no glitches, because the models of the cells have no delay. The wires from the line buffer to the array are not "
+        "counted.", "",
+        *_table(["read-out", "lines: logic", "clock", "leakage", "total", "results: logic", "clock", "total", "idle"], _power_rows(found)),
+        "Logic and gated clocks while lines stream in, by module:", "",
+        *_table(["module", *titles], _power_part_rows(found)),
         "## Ends of paths", "",
         "Ends: pins with a setup time, the array's included, and output ports. OpenSTA must time every end for setup and hold, except those "
         "on which it finds a constant, and the side band of the SRAMs. Its check_setup must find no register without a clock, no port without "
@@ -145,11 +168,12 @@ def write_csv(path: Path, found: Iterable[Subsystem]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["configuration", "array_mm2", "subsystem_mm2", "share", "line_buffer_mm2", "cells", "flip_flops", "ends", "timed_ends",
-                         "resets", *(f"{corner}_{mode}_{kind}_ns" for corner in CORNERS for mode in MODES
+                         "resets", "lines_mw", "results_mw", "idle_mw", *(f"{corner}_{mode}_{kind}_ns" for corner in CORNERS for mode in MODES
                                      for kind in ("setup", "hold", "reset"))])
         for one in found:
             writer.writerow([one.configuration.name, f"{one.array_mm2:.4f}", f"{one.mm2:.5f}", f"{one.share:.4f}",
                              f"{one.part(LINE_BUFFER).counts.area / 1e6:.5f}", one.counts.cells, one.counts.flip_flops, one.ends.all,
-                             one.ends.timed, one.ends.resets,
+                             one.ends.timed, one.ends.resets, f"{one.power.streaming.total:.3f}", f"{one.power.results.total:.3f}",
+                             f"{one.power.idle:.3f}",
                              *(f"{value:.4f}" for corner in CORNERS for mode in MODES
                                for value in (one.slacks[corner, mode].setup, one.slacks[corner, mode].hold, one.slacks[corner, mode].reset))])

@@ -13,6 +13,7 @@ from dtof_synth import array_stand_in, library, standard_cells, subsystem, subsy
 from dtof_synth.array_stand_in import MODES, Port, Ports
 from dtof_synth.errors import FlowError
 from dtof_synth.run import Technology
+from dtof_synth.subsystem_power import Parts, SubsystemPower
 from dtof_synth.subsystem import Ends, Part, Slacks, Subsystem
 
 from .partial import part_of
@@ -165,7 +166,8 @@ def around(name: str, line_buffer_um2: float = 20000.0, setup: float = 0.1, edge
               for corner in subsystem.CORNERS for mode in MODES}
     return Subsystem(result(name).configuration, parts, 1.0, slacks, Ends(50, 46, 3, 1, 12, 7, 30),
                      {"dtof_line_buffer": 0.1, "dtof_watchdog": setup, "array_stand_in": 0.4},
-                     {"slow": edges, "typical": 0, "fast": 0}, list(overloaded), 330.0)
+                     {"slow": edges, "typical": 0, "fast": 0}, list(overloaded), 330.0,
+                     SubsystemPower(Parts(3.0, 2.0, 0.25), Parts(1.0, 1.5, 0.25), 1.2, {"dtof_line_buffer": 4.0, "dtof_settle": 0.001}, {}))
 
 
 class Report(unittest.TestCase):
@@ -187,6 +189,7 @@ class Report(unittest.TestCase):
                     "| poolPointer | slow | +0.500 | +0.200 | +0.300 | -0.250 | +0.200 | +0.300 | `from` | `to` |",
                     "| `dtof_watchdog` | +0.100 | -0.250 |", "| the array | +0.400 | +0.400 |",
                     "| ezPointer | 50 | 46 | 3 | 1 | 12 | 7 | 30 |",
+                    "| ezPointer | 3.00 | 2.00 | 0.25 | 5.25 | 1.00 | 1.50 | 2.75 | 1.20 |", "| `dtof_line_buffer` | 4.00 | 4.00 |",
                     "| ezPointer: line buffer at most 3 % of the array | 2.00% | yes |",
                     "| poolPointer: line buffer at most 3 % of the array | 4.00% | **no** |",
                     "| poolPointer: closes 330 MHz in all corners | worst slack +0.200 ns | yes |",
