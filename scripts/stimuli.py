@@ -22,7 +22,7 @@ def cases(report: str) -> list[tuple[simulation.Case, str, float]]:
     if report == "power":
         return [(scene_power.small_case(known[name], SEED), scene_power.SCENE, klux) for name in scene_power.CONFIGURATIONS
                 for klux in scene_power.KLUX.values()]
-    return [(simulation.Case(known[name], (subsystem_power.ACQUISITIONS,), subsystem.SEED), subsystem_power.SCENE, subsystem_power.KLUX)
+    return [(subsystem_power.case(known[name], subsystem.SEED), subsystem_power.SCENE, subsystem_power.KLUX)
             for name in subsystem.CONFIGURATIONS]
 
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Power of dtof_subsystem around an array, from activity: its timed netlist is simulated with the RTL of the array inside.
 
-Icarus Verilog runs the first acquisitions of the room scene and the first results (synth/subsystem/dtof_subsystem_bench.sv), compares the
-results with the model's, and writes every change of every net; activity.py counts. Models have no delay, so there are no glitches. Wires have
-the library's wire load. The array's own power, with its input pins, is that of `make power`.
+Icarus Verilog runs the first acquisitions of the room scene (synth/subsystem/dtof_subsystem_bench.sv) and writes every change of every net;
+activity.py counts. The first results are compared with the model's. Where an array computes for thousands of clocks before its first result,
+the simulation ends behind the lines, and nothing is compared. Models have no delay, so there are no glitches. Wires have the library's wire
+load. The array's own power, with its input pins, is that of `make power`.
 """
 
 from __future__ import annotations
@@ -15,18 +16,20 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import activity, array_stand_in, cell_models, liberty, netlist, simulation, tools
+from . import activity, array_stand_in, cell_models, liberty, netlist, readouts, simulation, tools
 from . import power as power_model
 from .activity import OTHER, STREAMING, Activity
 from .array_stand_in import Ports
 from .configuration import Configuration
 from .errors import FlowError, given
+from .library import Library
 from .run import TARGET_MHZ, Technology, rtl_files
 
 BENCH = "dtof_subsystem_bench"
 SCENE, KLUX = "room", 50.0
-ACQUISITIONS = 2
+ACQUISITIONS = 2  # of which every line is counted
 MOST_RESULTS = 200
+QUIET_CLOCKS = 64  # without a line, behind which the simulation ends where no result is awaited
 MOST_CLOCKS = 60_000
 _BIT = re.compile(r"(\w+)\[(\d+)\]")
 
@@ -48,11 +51,32 @@ class Parts:
 class SubsystemPower:
     """Power of the subsystem. `modules`: logic and gated clock while lines stream in, mW, by module."""
 
-    streaming: Parts  # a line in every clock
-    results: Parts  # from the last line to the last result that was simulated
+    streaming: Parts  # clocks in which a line is taken
+    results: Parts | None  # the other clocks, up to the last result that was compared; none without results
     idle: float  # clock pins, tree and leakage
     modules: dict[str, float]
     clocks: dict[str, int]  # simulated, by phase
+    compared: int  # results
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """What a simulation counted, and the results that it compared with the model's."""
+
+    activity: Activity
+    compared: int
+
+
+def awaits_results(configuration: Configuration) -> bool:
+    """Whether results are simulated and compared. They are those of a pointer array that takes a single pass: it sends them right behind the
+    last line. The others scan or decode for thousands of clocks."""
+    return configuration.has_pointer and readouts.evaluate(configuration.described.passes, configuration.parameters) == 0
+
+
+def case(configuration: Configuration, seed: int) -> simulation.Case:
+    """The frame. Of several passes the first has ACQUISITIONS, and the others are not simulated."""
+    passes = 0 if configuration.is_pool else readouts.evaluate(configuration.described.passes, configuration.parameters)
+    return simulation.Case(configuration, (ACQUISITIONS * (passes + 1),), seed)
 
 
 def _port_and_bit(name: str) -> tuple[str, int]:
@@ -106,9 +130,15 @@ def _single_bits(name: str, bits: list) -> list[tuple[str, int | str]]:
     return [(name, bits[0])] if len(bits) == 1 else [(f"{name}_{index}_", bit) for index, bit in enumerate(bits)]
 
 
+def first_lines(configuration: Configuration) -> int:
+    """Lines of ACQUISITIONS."""
+    return ACQUISITIONS * configuration["PIXELS_PER_SRAM"] * configuration["SLOTS"]
+
+
 def simulate(design: dict, configuration: Configuration, ports: Ports, others: list[tuple[str, bool]], technology: Technology,
-             folder: Path, seed: int) -> Activity:
-    """Simulates the design, and counts its activity. Renames the design's nets and modules. FlowError if a result is not the model's."""
+             folder: Path, seed: int) -> Simulated:
+    """Simulates the design, and counts its activity. Renames the design's nets and modules. FlowError if a result is not the model's, or if
+    results are missing."""
     folder.mkdir(parents=True, exist_ok=True)
     root, drawn = technology.root, random.Random(seed)
     for name in [name for name, module in netlist.modules(design).items() if not module["cells"]]:
@@ -128,18 +158,19 @@ def simulate(design: dict, configuration: Configuration, ports: Ports, others: l
     (folder / "activity_dump.sv").write_text(
         f'module activity_dump;\n  initial begin\n    $dumpfile("activity.vcd");\n    $dumpvars(1, {scopes});\n  end\nendmodule\n',
         encoding="utf-8")
-    case = simulation.Case(configuration, (ACQUISITIONS,), seed)
-    simulation.write_vectors(case, root, folder, ("--scene", SCENE, "--klux", f"{KLUX:g}"))
-    _compile(case, root, folder)
+    simulation.write_vectors(case(configuration, seed), root, folder, ("--scene", SCENE, "--klux", f"{KLUX:g}"))
+    _compile(case(configuration, seed), root, folder)
     return _count(design, path, folder, configuration)
 
 
-def _compile(case: simulation.Case, root: Path, folder: Path) -> None:
-    configuration = case.configuration
-    beats = ACQUISITIONS * configuration["PIXELS_PER_SRAM"] * configuration["SLOTS"]
+def _compile(simulated: simulation.Case, root: Path, folder: Path) -> None:
+    configuration = simulated.configuration
+    beats = simulated.frames[0] * configuration["PIXELS_PER_SRAM"] * configuration["SLOTS"]
     values = {"NP": configuration["NP"], "SRAM_NUM": configuration["SRAM_NUM"], "PIXELS_PER_SRAM": configuration["PIXELS_PER_SRAM"],
               "SLOTS": configuration["SLOTS"], "FRACTION_BITS": configuration["FRACTION_BITS"], "HAS_SCHEDULE": int(configuration.is_pool),
-              "BEATS": beats, "MOST_RESULTS": MOST_RESULTS, "MOST_CLOCKS": MOST_CLOCKS}
+              "BEATS": beats, "MOST_RESULTS": MOST_RESULTS,
+              "QUIET_CLOCKS": 0 if awaits_results(configuration) else QUIET_CLOCKS, "LEAST_LINES": first_lines(configuration),
+              "MOST_CLOCKS": MOST_CLOCKS}
     command = ["iverilog", "-g2012", f"-I{root / 'hdl' / 'common'}", "-s", BENCH, "-s", "activity_dump",
                *(f"-P{BENCH}.{name}={value}" for name, value in values.items()), "-o", "bench.vvp",
                *map(str, [*rtl_files(root)[:1], *sorted((root / simulation.BEHAVIOURAL).glob("*.sv")), *rtl_files(root)[1:],
@@ -148,14 +179,14 @@ def _compile(case: simulation.Case, root: Path, folder: Path) -> None:
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     said = (done.stdout + done.stderr).strip()
     if done.returncode or said:
-        raise FlowError(f"{case.name}: Icarus Verilog: {said.splitlines()[0] if said else 'failed silently'}")
+        raise FlowError(f"{simulated.name}: Icarus Verilog: {said.splitlines()[0] if said else 'failed silently'}")
 
 
 def _streams(ports: dict[str, int]) -> bool:
     return ports.get("s_axis_tready_o") == 1 and ports.get("s_axis_tvalid_i") == 1
 
 
-def _count(design: dict, path: str, folder: Path, configuration: Configuration) -> Activity:
+def _count(design: dict, path: str, folder: Path, configuration: Configuration) -> Simulated:
     """Counts while vvp writes the waveform to its output; the bench's words go to a file."""
     words = folder / "bench.log"
     command = f"exec 3>&1; vvp -n bench.vvp > {words.name} 2>&1"
@@ -165,17 +196,37 @@ def _count(design: dict, path: str, folder: Path, configuration: Configuration) 
     with subprocess.Popen(["sh", "-c", command], cwd=folder, stdout=subprocess.PIPE, text=True, encoding="ascii") as process:
         counted = activity.count(given(process.stdout, "vvp has no output"), design, path, _streams)
     pipe.unlink(missing_ok=True)
-    said = words.read_text(encoding="utf-8")
-    if not re.search(rf"^DTOF_PASS results {MOST_RESULTS} clocks \d+$", said, re.MULTILINE) or "DTOF_FAIL" in said:
-        raise FlowError(f"{configuration.name}: {said.strip().splitlines()[-1] if said.strip() else 'the simulation printed nothing'}")
-    return counted
+    return judge(words.read_text(encoding="utf-8"), counted, configuration)
+
+
+def judge(said: str, counted: Activity, configuration: Configuration) -> Simulated:
+    """Compares what the bench said with what was counted. FlowError unless the frame ended as it should: every result compared that can be, and
+    as many clocks counted as streaming as lines were taken, of all acquisitions that the first pass has."""
+    name = configuration.name
+    passed = re.search(r"^DTOF_PASS lines (\d+) results (\d+) clocks (\d+)$", said, re.MULTILINE)
+    if passed is None or "DTOF_FAIL" in said:
+        raise FlowError(f"{name}: {said.strip().splitlines()[-1] if said.strip() else 'the simulation printed nothing'}")
+    lines, results, clocks = map(int, passed.groups())
+    wanted = MOST_RESULTS if awaits_results(configuration) else 0
+    if results != wanted:
+        raise FlowError(f"{name}: {results} results were compared, and {wanted} should be")
+    if lines < first_lines(configuration):
+        raise FlowError(f"{name}: {lines} lines were taken, and {first_lines(configuration)} should come without a pause")
+    streaming, total = counted.clocks.get(STREAMING, 0), sum(counted.clocks.values())
+    if abs(streaming - lines) > 1 or abs(total - clocks) > 1:  # the waveform may have s_axis_tready_o before the edge that sets it
+        raise FlowError(f"{name}: {streaming} of {total} clocks were counted as streaming, and the bench saw {lines} lines in {clocks} clocks")
+    return Simulated(counted, results)
 
 
 def measure(design: dict, configuration: Configuration, ports: Ports, others: list[tuple[str, bool]], technology: Technology,
             folder: Path, seed: int) -> SubsystemPower:
     """Power of the timed design in the typical corner."""
-    counted = simulate(design, configuration, ports, others, technology, folder, seed)
-    library = technology.typical
+    return power(simulate(design, configuration, ports, others, technology, folder, seed), design, configuration.name, technology.typical)
+
+
+def power(simulated: Simulated, design: dict, name: str, library: Library) -> SubsystemPower:
+    """Power of a design from its counted activity. `name`: for error messages."""
+    counted = simulated.activity
     group = liberty.read(library.path)
     internal = activity.internal_energies(group, library.energy_fj)
     leakage = {cell.name: cell.number("cell_leakage_power") for cell in group.children("cell")}
@@ -188,15 +239,16 @@ def measure(design: dict, configuration: Configuration, ports: Ports, others: li
     def parts(phase: str) -> tuple[Parts, dict[str, float]]:
         clocks = counted.clocks.get(phase, 0)
         if not clocks:
-            raise FlowError(f"{configuration.name}: the simulation has no clock of the phase {phase}")
+            raise FlowError(f"{name}: the simulation has no clock of the phase {phase}")
         to_mw = TARGET_MHZ * 1e-6 / clocks
         found = {path: activity.energy(scope, phase, design, library, internal, 0.0) for path, scope in counted.scopes.items()}
         modules: dict[str, float] = {}
         for path, one in found.items():
-            name = re.sub(rf"(__\d+)?{simulation.NETLIST_SUFFIX}$", "", counted.scopes[path].module)
-            modules[name] = modules.get(name, 0.0) + one.total * to_mw
+            module = re.sub(rf"(__\d+)?{simulation.NETLIST_SUFFIX}$", "", counted.scopes[path].module)
+            modules[module] = modules.get(module, 0.0) + one.total * to_mw
         logic = sum(one.nets + one.cells for one in found.values()) * to_mw
         return Parts(logic, clock_mw + sum(one.gated_clock for one in found.values()) * to_mw, leak_mw), modules
 
     streaming, by_module = parts(STREAMING)
-    return SubsystemPower(streaming, parts(OTHER)[0], clock_mw + leak_mw, by_module, counted.clocks)
+    results = parts(OTHER)[0] if simulated.compared else None
+    return SubsystemPower(streaming, results, clock_mw + leak_mw, by_module, counted.clocks, simulated.compared)

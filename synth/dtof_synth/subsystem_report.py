@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from . import line_buffer, subsystem_power
+from .activity import STREAMING
 from .goals import Goal
 from .subsystem import CORNERS, MODES, TOP, Subsystem
 
@@ -86,9 +87,26 @@ def _late_rows(found: Sequence[Subsystem]) -> list[list[str]]:
 
 
 def _power_rows(found: Sequence[Subsystem]) -> list[list[str]]:
-    return [[one.configuration.title, *(f"{value:.2f}" for value in (
-        one.power.streaming.logic, one.power.streaming.clock, one.power.streaming.leakage, one.power.streaming.total,
-        one.power.results.logic, one.power.results.clock, one.power.results.total, one.power.idle))] for one in found]
+    rows = []
+    for one in found:
+        lines, results = one.power.streaming, one.power.results
+        sent = [f"{value:.2f}" for value in (results.logic, results.clock, results.total)] if results else ["-"] * 3
+        rows.append([one.configuration.title, *(f"{value:.2f}" for value in (lines.logic, lines.clock, lines.leakage, lines.total)), *sent,
+                     f"{one.power.idle:.2f}", f"{one.power.clocks[STREAMING]}", f"{one.power.compared or '-'}"])
+    return rows
+
+
+def _compared(found: Sequence[Subsystem]) -> str:
+    """Around which arrays results are compared."""
+    def named(compared: bool) -> str:
+        return ", ".join(one.configuration.title for one in found if bool(one.power.compared) == compared)
+
+    text = f"Around {named(True)} the first {subsystem_power.MOST_RESULTS} results are simulated, and are those of the model. " if named(True) else ""
+    if named(False):
+        text += (f"Around {named(False)} **no result is compared**: the first one comes thousands of clocks behind the last line, and the simulation "
+                 f"ends {subsystem_power.QUIET_CLOCKS} clocks behind it. (Arrays of several passes have their first pass alone, those with a "
+                 "schedule their first phase.) ")
+    return text
 
 
 def _power_part_rows(found: Sequence[Subsystem]) -> list[list[str]]:
@@ -148,11 +166,13 @@ def report(found: Sequence[Subsystem], digest: str) -> str:
         f"mW of `{TOP}` without the array, typical corner, {found[0].target_mhz:g} MHz. Power of the array: [power.md](power.md). The "
         "netlist of the timing is simulated with the RTL of the array inside, and every transition of every net is counted: "
         f"{subsystem_power.ACQUISITIONS} acquisitions of the scene `{subsystem_power.SCENE}` at {subsystem_power.KLUX:g} klux, a line in every "
-        f"clock, then the first {subsystem_power.MOST_RESULTS} results, which must be those of the model. Logic: nets and cells. Clock: pins of "
-        "flip-flops and clock gates, an estimated tree, and what runs behind clock gates. Idle: no line, no register access, no clock gate "
-        "open. There are no glitches, because the models of the cells have no delay. The wires from the line buffer to the array are not "
-        "counted.", "",
-        *_table(["read-out", "lines: logic", "clock", "leakage", "total", "results: logic", "clock", "total", "idle"], _power_rows(found)),
+        f"clock. {_compared(found)}", "",
+        "Lines: the clocks in which the array takes a line. Results: all other clocks, from the reset to the last result that was compared. Idle: "
+        "no line, no register access, no clock gate open. Logic: nets and cells. Clock: pins of flip-flops and clock gates, an estimated tree, "
+        "and what runs behind clock gates. Not counted: glitches, because the models of the cells have no delay; the wires from the line buffer "
+        "to the array; the optional raster buffer, which is not built.", "",
+        *_table(["read-out", "lines: logic", "clock", "leakage", "total", "results: logic", "clock", "total", "idle", "clocks with a line",
+                 "results compared"], _power_rows(found)),
         "Logic and gated clocks while lines stream in, by module:", "",
         *_table(["module", *titles], _power_part_rows(found)),
         "## Ends of paths", "",
@@ -168,12 +188,12 @@ def write_csv(path: Path, found: Iterable[Subsystem]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["configuration", "array_mm2", "subsystem_mm2", "share", "line_buffer_mm2", "cells", "flip_flops", "ends", "timed_ends",
-                         "resets", "lines_mw", "results_mw", "idle_mw", *(f"{corner}_{mode}_{kind}_ns" for corner in CORNERS for mode in MODES
-                                     for kind in ("setup", "hold", "reset"))])
+                         "resets", "lines_mw", "results_mw", "idle_mw", "results_compared",
+                         *(f"{corner}_{mode}_{kind}_ns" for corner in CORNERS for mode in MODES for kind in ("setup", "hold", "reset"))])
         for one in found:
             writer.writerow([one.configuration.name, f"{one.array_mm2:.4f}", f"{one.mm2:.5f}", f"{one.share:.4f}",
                              f"{one.part(LINE_BUFFER).counts.area / 1e6:.5f}", one.counts.cells, one.counts.flip_flops, one.ends.all,
-                             one.ends.timed, one.ends.resets, f"{one.power.streaming.total:.3f}", f"{one.power.results.total:.3f}",
-                             f"{one.power.idle:.3f}",
+                             one.ends.timed, one.ends.resets, f"{one.power.streaming.total:.3f}",
+                             f"{one.power.results.total:.3f}" if one.power.results else "", f"{one.power.idle:.3f}", one.power.compared,
                              *(f"{value:.4f}" for corner in CORNERS for mode in MODES
                                for value in (one.slacks[corner, mode].setup, one.slacks[corner, mode].hold, one.slacks[corner, mode].reset))])

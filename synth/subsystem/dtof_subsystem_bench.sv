@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame of dtof-vectors through the netlist of dtof_subsystem, with the RTL of the array inside. Software writes the registers and starts the
-// frame. The source has a line in every clock, the sink takes every word. Results are compared with the model's; after MOST_RESULTS results the
-// simulation ends with "DTOF_PASS results N clocks N", at the first failure with "DTOF_FAIL".
+// frame. The source has a line in every clock, the sink takes every word. Results are compared with the model's. The simulation ends after
+// MOST_RESULTS results, or, with QUIET_CLOCKS, so many clocks after LEAST_LINES lines or more: thousands of clocks before the first result.
+// Its last words are "DTOF_PASS lines N results N clocks N", at the first failure "DTOF_FAIL".
 `timescale 1ns / 1ps
 
 module dtof_subsystem_bench #(
@@ -13,6 +14,8 @@ module dtof_subsystem_bench #(
     parameter int HAS_SCHEDULE = 0,
     parameter int BEATS = 1,
     parameter int MOST_RESULTS = 1,
+    parameter int QUIET_CLOCKS = 0,  // 0: wait for results
+    parameter int LEAST_LINES = 1,   // that come before
     parameter int MOST_CLOCKS = 1
 );
 
@@ -62,10 +65,17 @@ module dtof_subsystem_bench #(
   logic [47:0] expected[0:PIXELS_PER_SRAM*SRAM_NUM-1];
   integer clocks = 0;
   integer words = 0;
+  integer lines = 0;
+  integer quiet = 0;
   integer acquisitions, setting_0, setting_1, setting_2, pause, stall, again, file, found;
 
   task finish_with_failure(input [8*60-1:0] what);
     $display("DTOF_FAIL %0s, clock %0d, word %0d", what, clocks, words);
+    $finish(0);
+  endtask
+
+  task finish;
+    $display("DTOF_PASS lines %0d results %0d clocks %0d", lines, words, clocks);
     $finish(0);
   endtask
 
@@ -74,7 +84,8 @@ module dtof_subsystem_bench #(
     #1.5 clk = 1'b1;
     #1.5 clk = 1'b0;
     clocks = clocks + 1;
-    if (clocks == MOST_CLOCKS) finish_with_failure("the results do not come");
+    if (clocks == MOST_CLOCKS && QUIET_CLOCKS == 0) finish_with_failure("the results do not come");
+    if (clocks == MOST_CLOCKS) finish_with_failure("the lines are not taken");
   end
 
   task write(input logic [11:0] offset, input logic [31:0] data);
@@ -103,9 +114,9 @@ module dtof_subsystem_bench #(
     #0.1 rst_n = 1'b1;
     repeat (4) @(posedge clk);
     write(dtof_registers_pkg::ACQUISITIONS, acquisitions);
-    if (HAS_SCHEDULE != 0) begin
-      write(dtof_registers_pkg::COARSE_END, setting_0);
-      write(dtof_registers_pkg::TRACK_END, setting_1);
+    if (HAS_SCHEDULE != 0) begin  // without a pause between the acquisitions, if no result is awaited
+      write(dtof_registers_pkg::COARSE_END, QUIET_CLOCKS != 0 ? acquisitions : setting_0);
+      write(dtof_registers_pkg::TRACK_END, QUIET_CLOCKS != 0 ? acquisitions : setting_1);
     end
     write(dtof_registers_pkg::CONTROL, 32'd1 << dtof_registers_pkg::CONTROL_START_LSB);
   end
@@ -143,11 +154,13 @@ module dtof_subsystem_bench #(
       end
       if (result_first !== (words == 0) || result_last !== 1'b0) finish_with_failure("a mark of the frame is wrong");
       words = words + 1;
-      if (words == MOST_RESULTS) begin
-        $display("DTOF_PASS results %0d clocks %0d", words, clocks);
-        $finish(0);
-      end
+      if (QUIET_CLOCKS == 0 && words == MOST_RESULTS) finish;
     end
+    if (line_valid && line_ready === 1'b1) begin
+      lines = lines + 1;
+      quiet = 0;
+    end else if (lines >= LEAST_LINES) quiet = quiet + 1;
+    if (QUIET_CLOCKS != 0 && quiet == QUIET_CLOCKS) finish;
   end
 
 endmodule
