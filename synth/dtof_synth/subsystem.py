@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import math
+import pickle
 import re
 from collections import Counter
 from collections.abc import Callable
@@ -443,11 +444,26 @@ def measure(result: Result, technology: Technology, runs: Path, folder: Path) ->
     return Subsystem(configuration, parts, result.total_mm2, slacks, ends, late, slow_edges, overloaded, technology.target_mhz, power)
 
 
-def measure_all(results: list[Result], technology: Technology, build: Path, workers: int, progress: Callable[[str], None]) -> list[Subsystem]:
-    """The subsystems around several arrays, whose runs are in `build`. The first failure stops all."""
+def measure_once(result: Result, technology: Technology, runs: Path, folder: Path, digest: str) -> Subsystem:
+    """As `measure`, whose result is kept until an input changes. `digest`: of the report's inputs."""
+    kept, key = folder / "result.pickle", (result.configuration.rtl_parameters(), digest)
+    try:
+        of, found = pickle.loads(kept.read_bytes())
+        if of == key:
+            return found
+    except (OSError, pickle.UnpicklingError, EOFError, AttributeError, TypeError, ValueError, ImportError):
+        pass
+    found = measure(result, technology, runs, folder)
+    kept.write_bytes(pickle.dumps((key, found)))
+    return found
+
+
+def measure_all(results: list[Result], technology: Technology, build: Path, workers: int, digest: str,
+                progress: Callable[[str], None]) -> list[Subsystem]:
+    """The subsystems around several arrays, whose runs are in `build`. The first failure stops all; what is finished is kept."""
     with ProcessPoolExecutor(workers) as pool:
-        futures = {result.configuration.name: pool.submit(measure, result, technology, build / "runs" / result.configuration.name,
-                                                          build / "subsystem" / result.configuration.name) for result in results}
+        futures = {result.configuration.name: pool.submit(measure_once, result, technology, build / "runs" / result.configuration.name,
+                                                          build / "subsystem" / result.configuration.name, digest) for result in results}
         found = []
         for name, future in futures.items():
             found.append(future.result())

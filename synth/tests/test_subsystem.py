@@ -172,6 +172,21 @@ def around(name: str, line_buffer_um2: float = 20000.0, setup: float = 0.1, edge
                                     {"dtof_line_buffer": 4.0, "dtof_settle": 0.001}, {STREAMING: 640}, 200 if name == "ezpointer" else 0))
 
 
+class Kept(unittest.TestCase):
+    def test_a_result_is_kept_until_an_input_changes(self) -> None:
+        measured = [around("ezpointer", setup=setup) for setup in (0.1, 0.2, 0.3, 0.4)]
+        with tempfile.TemporaryDirectory() as name, mock.patch.object(subsystem, "measure", side_effect=measured) as measure:
+            folder, technology = Path(name), part_of(Technology, root=ROOT)
+
+            def once(of: str, digest: str) -> float:
+                return subsystem.measure_once(result(of), technology, folder, folder, digest).late["dtof_watchdog"]
+
+            self.assertEqual([once("ezpointer", "a"), once("ezpointer", "a"), once("ezpointer", "b"), once("hispointer", "b")], [0.1, 0.1, 0.2, 0.3])
+            (folder / "result.pickle").write_bytes(b"torn")
+            self.assertEqual(once("hispointer", "b"), 0.4)
+            self.assertEqual(measure.call_count, 4)
+
+
 class Report(unittest.TestCase):
     def test_the_answer_comes_first(self) -> None:
         lines = subsystem_report.report([around("ezpointer"), around("poolpointer", 40000.0)], "0123456789abcdef").splitlines()
