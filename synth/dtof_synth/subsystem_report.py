@@ -47,6 +47,9 @@ def _answer(found: Sequence[Subsystem]) -> str:
     late = sorted({name for one in found for name, slack in one.late.items() if slack < 0})
     size = (f"Around an array of {found[0].configuration['SRAM_NUM']} columns, `{TOP}` takes {min(areas):.3f} to {max(areas):.3f} mm2, "
             f"{min(shares):.1%} to {max(shares):.1%} of the array.")
+    lines, idle = [one.power.streaming.total for one in found], [one.power.idle for one in found]
+    size += (f" Without the array it takes {min(lines):.1f} to {max(lines):.1f} mW while lines stream in, and {min(idle):.1f} to {max(idle):.1f} mW "
+             "idle.")
     missed = [one.configuration.title for one in found if one.worst("margins") < 0]
     if not missed:
         return f"{size} It closes {found[0].target_mhz:g} MHz with margins around every array."
@@ -104,9 +107,9 @@ def _compared(found: Sequence[Subsystem]) -> str:
     text = f"Around {named(True)} the first {subsystem_power.MOST_RESULTS} results are simulated, and are those of the model. " if named(True) else ""
     if named(False):
         text += (f"Around {named(False)} **no result is compared**: the first one comes thousands of clocks behind the last line, and the simulation "
-                 f"ends {subsystem_power.QUIET_CLOCKS} clocks behind it. (Arrays of several passes have their first pass alone, those with a "
-                 "schedule their first phase.) ")
-    return text
+                 f"ends {subsystem_power.QUIET_CLOCKS} clocks behind it. Only the first of several passes is simulated, and a pool read-out "
+                 "takes all lines in its first phase.")
+    return text.rstrip()
 
 
 def _power_part_rows(found: Sequence[Subsystem]) -> list[list[str]]:
@@ -167,9 +170,9 @@ def report(found: Sequence[Subsystem], digest: str) -> str:
         "netlist of the timing is simulated with the RTL of the array inside, and every transition of every net is counted: "
         f"{subsystem_power.ACQUISITIONS} acquisitions of the scene `{subsystem_power.SCENE}` at {subsystem_power.KLUX:g} klux, a line in every "
         f"clock. {_compared(found)}", "",
-        "Lines: the clocks in which the array takes a line. Results: all other clocks, from the reset to the last result that was compared. Idle: "
-        "no line, no register access, no clock gate open. Logic: nets and cells. Clock: pins of flip-flops and clock gates, an estimated tree, "
-        "and what runs behind clock gates. Not counted: glitches, because the models of the cells have no delay; the wires from the line buffer "
+        "Lines: the clocks in which the subsystem takes a line. Results: all other clocks, from the reset to the last result that was compared. "
+        "Idle: no line, no register access, no clock gate open. Logic: nets and cells. Clock: pins of flip-flops and clock gates, an estimated "
+        "tree, and what runs behind clock gates. Not counted: glitches, because the models of the cells have no delay; the wires from the line buffer "
         "to the array; the optional raster buffer, which is not built.", "",
         *_table(["read-out", "lines: logic", "clock", "leakage", "total", "results: logic", "clock", "total", "idle", "clocks with a line",
                  "results compared"], _power_rows(found)),

@@ -47,7 +47,7 @@ end
 
 
 class Digests(unittest.TestCase):
-    """Of a netlist of two modules."""
+    """Digests of a netlist of two modules."""
 
     def same(self, *changes: tuple[str, str]) -> bool:
         text = NETLIST

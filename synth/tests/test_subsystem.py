@@ -191,7 +191,8 @@ class Report(unittest.TestCase):
     def test_the_answer_comes_first(self) -> None:
         lines = subsystem_report.report([around("ezpointer"), around("poolpointer", 40000.0)], "0123456789abcdef").splitlines()
         self.assertEqual(lines[:3], ["# Subsystem", "", "Around an array of 200 columns, `dtof_subsystem` takes 0.021 to 0.041 mm2, 2.1% to 4.1% "
-                                     "of the array. It closes 330 MHz with margins around every array."])
+                                     "of the array. Without the array it takes 5.2 to 5.2 mW while lines stream in, and 1.2 to 1.2 mW idle. It "
+                                     "closes 330 MHz with margins around every array."])
         self.assertIn("inputs `0123456789ab`", "\n".join(lines))
 
     def test_a_miss_and_its_module_come_first(self) -> None:
