@@ -167,8 +167,8 @@ def _compile(simulated: simulation.Case, root: Path, folder: Path) -> None:
     configuration = simulated.configuration
     beats = simulated.frames[0] * configuration["PIXELS_PER_SRAM"] * configuration["SLOTS"]
     values = {"NP": configuration["NP"], "SRAM_NUM": configuration["SRAM_NUM"], "PIXELS_PER_SRAM": configuration["PIXELS_PER_SRAM"],
-              "SLOTS": configuration["SLOTS"], "FRACTION_BITS": configuration.parameters.get("FRACTION_BITS", 0), "HAS_SCHEDULE": int(configuration.is_pool),
-              "BEATS": beats, "MOST_RESULTS": MOST_RESULTS,
+              "SLOTS": configuration["SLOTS"], "FRACTION_BITS": configuration.parameters.get("FRACTION_BITS", 0),
+              "HAS_SCHEDULE": int(configuration.is_pool), "BEATS": beats, "MOST_RESULTS": MOST_RESULTS,
               "QUIET_CLOCKS": 0 if awaits_results(configuration) else QUIET_CLOCKS, "LEAST_LINES": first_lines(configuration),
               "MOST_CLOCKS": MOST_CLOCKS}
     command = ["iverilog", "-g2012", f"-I{root / 'hdl' / 'common'}", "-s", BENCH, "-s", "activity_dump",
