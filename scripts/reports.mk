@@ -3,8 +3,8 @@
 # make stale        lists the reports whose inputs changed since they were measured, what changed, the minutes that renewing takes
 # make stale-check  fails if README.md or the page of results shows a stale figure, or a report that takes two minutes is stale (CI)
 # make reports      renews every stale report in order (hours); stopped and started again it goes on where it was
-# make confirm      small runs: reports whose inputs changed are confirmed if a small run writes the same bytes as before; NAMES="..."
-#                   (docs/reference/figures.md)
+# make confirm      small runs, or digests of netlists and stimuli: reports whose inputs changed are confirmed if they are the same bytes as
+#                   before; NAMES="..." (docs/reference/figures.md)
 .PHONY: figures stale stale-check reports confirm
 figures:
 	@scripts/reports.py figures

@@ -33,7 +33,7 @@ synth-budgets synth-sizes: synth-%:
 synth-flat synth-corners synth-namings: synth-%:
 	@synth/synth.py $* $(CONFIGURATIONS)
 
-synth-subsystem:
+synth-subsystem: vectors
 	@synth/around_array.py $(CONFIGURATIONS) $(if $(STRICT),--strict)
 
 # The other checkout is by default that of the other Debian (scripts/try_debian.sh trixie --run "make synth").

@@ -74,9 +74,10 @@ def confirm(root: Path, report: Report) -> str:
     known = staleness.measured(root).get(report.name)
     now = inputs(report, SourceTree(root))
     stale = staleness.compared(report, known, now)
-    if known is None or (stale and not known.small):
+    small = known.small if known and known.small_by == staleness.confirmed_by(report) else ""  # else it is that of another command
+    if known is None or (stale and not small):
         return "stale, and no small run was made while it was fresh"
-    if known.small and not stale:
+    if small and not stale:
         return "fresh"
     digest = small_run(root, report)
     if digest is None:
@@ -86,7 +87,7 @@ def confirm(root: Path, report: Report) -> str:
     if not stale:
         staleness.store_small(root, report, digest)
         return "fresh: the digest of its small run is stored"
-    if digest != known.small:
+    if digest != small:
         return f"stale: `{staleness.confirming(report)}` writes other bytes than before, `{report.command}` renews it"
     staleness.store_confirmed(root, report, now)
     return f"confirmed: `{staleness.confirming(report)}` writes the same bytes as before"

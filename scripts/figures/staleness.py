@@ -5,6 +5,7 @@ reports/digests.json has the inputs that each report was measured on. A command 
 (build/inputs/<report>.json), so that what changes while it runs makes its report stale. A small run can confirm a report after a change
 of its inputs (confirm.py); a confirmed report is not stale."""
 
+import hashlib
 import json
 import subprocess
 from dataclasses import dataclass
@@ -23,12 +24,14 @@ NAMED_PLACES = 6  # on a page
 @dataclass(frozen=True)
 class Measured:
     """The inputs on which a report was measured. `commit`: the commit on which the files were based, if git knows it. `small`: digest of the
-    files of a small run with these inputs. `confirmed`: digest of the inputs with which a small run wrote the same files."""
+    files of a small run with these inputs. `small_by`: what made it, if the report has a command of its own for that (confirmed_by).
+    `confirmed`: digest of the inputs with which a small run wrote the same files."""
 
     digest: str
     folders: dict[str, str]
     commit: str = ""
     small: str = ""
+    small_by: str = ""
     confirmed: str = ""
     confirmed_commit: str = ""
 
@@ -113,15 +116,22 @@ def _store(root: Path, report: Report, found: Measured) -> None:
     entries = _read(root / DIGESTS)
     before = entries.get(report.name, {})
     entries[report.name] = {"digest": found.digest, "commit": found.commit, "folders": found.folders}
-    if before.get("digest") == found.digest and "small" in before:
-        entries[report.name]["small"] = before["small"]
+    if before.get("digest") == found.digest:
+        entries[report.name] |= {key: before[key] for key in ("small", "small_by") if key in before}
     write_lines(root / DIGESTS, entries)
 
 
+def confirmed_by(report: Report) -> str:
+    """Digest of the command that confirms the report and of the inputs it stands for; empty if a small run of the report's command does."""
+    return hashlib.sha256("\n".join([report.confirm, *report.confirm_covers]).encode()).hexdigest()[:8] if report.confirm else ""
+
+
 def store_small(root: Path, report: Report, digest: str) -> None:
-    """Stores the digest of a small run that was made with the inputs on which the report was measured."""
+    """Stores the digest of a small run that was made with the inputs on which the report was measured, or with which it was confirmed."""
     entries = _read(root / DIGESTS)
     entries[report.name]["small"] = digest
+    if report.confirm:
+        entries[report.name]["small_by"] = confirmed_by(report)
     write_lines(root / DIGESTS, entries)
 
 

@@ -100,13 +100,15 @@ def growth(tables: Tables) -> Figures:
 
 
 def subsystem(tables: Tables) -> Figures:
-    """Area of dtof_subsystem around each array, and its least setup slack."""
+    """Area and power of dtof_subsystem around each array, and its least setup slack."""
     found: Figures = {}
     for row in tables.rows("subsystem.csv"):
         name = f"subsystem.{row['configuration']}"
         found[f"{name}.around_mm2"] = Figure(row["subsystem_mm2"], "mm2")
         found[f"{name}.share_percent"] = Figure(percent(row["share"]), "%")
         found[f"{name}.line_buffer_mm2"] = Figure(row["line_buffer_mm2"], "mm2")
+        found[f"{name}.lines_mw"] = Figure(row["lines_mw"], "mW")
+        found[f"{name}.idle_mw"] = Figure(row["idle_mw"], "mW")
         found[f"{name}.slow_setup_with_margins_ns"] = Figure(row["slow_margins_setup_ns"], "ns")
     return found
 

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Small runs that confirm reports: in a small project, in which changes are planted."""
+"""Small runs that confirm reports: in a small project, in which changes are planted; and what the confirming commands of this project cover."""
 
-from figures import confirm, staleness
+import unittest
+from pathlib import Path
+
+from figures import confirm, reports, staleness
 from figures.source_tree import SourceTree
 from tests.figures_project import FILES, Project
+
+ROOT = Path(__file__).resolve().parents[2]
 
 SMALL_MEASURE = """\
 pareto:
@@ -96,3 +101,69 @@ class Confirmations(Project):
         self.write("synth/helper.py", FILES["synth/helper.py"])
         self.write("hdl/a.sv", "module a; wire w; endmodule\n")  # which the command does not stand for
         self.assertIn("writes other bytes than before", self.confirm("area"))
+
+    def test_a_digest_of_another_command_confirms_nothing(self) -> None:
+        text = (self.root / "reports/reports.toml").read_text(encoding="utf-8")
+
+        def confirmed_by(command: str, covers: str = "synth/*") -> None:
+            self.write("reports/reports.toml", text.replace('files = ["area.csv"]', f'files = ["area.csv"]\nconfirm = "{command}"\n'
+                                                            f'confirm_covers = ["{covers}"]'))
+
+        confirmed_by("cat synth/helper.py")
+        self.measure()
+        self.confirm("area")
+        self.write("synth/flow.py", "import helper\nfrom parts import adder\n\nprint(2)\n")
+        self.assertIn("confirmed: ", self.confirm("area"))
+        confirmed_by("cat synth/helper.py synth/unrelated.py")
+        self.assertEqual(self.confirm("area"), "fresh: the digest of its small run is stored")  # for what is confirmed is not stale
+        self.write("synth/flow.py", "import helper\nfrom parts import adder\n\nprint(3)\n")
+        self.assertIn("confirmed: ", self.confirm("area"))
+        self.write("synth/flow.py", "import helper\nfrom parts import adder\n\nprint(4)\n")
+        for command, covers in (("cat synth/helper.py", "synth/*"), ("cat synth/helper.py synth/unrelated.py", "synth/**/*")):
+            confirmed_by(command, covers)
+            self.assertIn("no small run was made while it was fresh", self.confirm("area"))
+
+
+class OneChanged(SourceTree):
+    """The project with another content of one file."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(ROOT)
+        if name not in self.files:
+            raise FileNotFoundError(name)
+        self.known = {name: "changed"}
+
+
+class Covers(unittest.TestCase):
+    """What `synth/elaborated.py` stands for in the reports of this project, and what it does not."""
+
+    FLOW = ("constraints/dtof.sdc", "constraints/margins.sdc", "synth/yosys/4_map.tcl", "synth/sta/timing.tcl", "synth/sram_sizes.csv",
+            "synth/dtof_synth/run.py", "synth/dtof_synth/standard_cells.py", "synth/dtof_synth/sram_model.py", "synth/dtof_synth/canonical.py")
+    ELABORATED = ("hdl/common/dtof_pkg.sv", "hdl/common/dtof_macros.svh", "hdl/thesis/dtof_controller.sv", "hdl/pool/dtof_pool_pair.sv",
+                  "configurations.toml", "readouts.toml")
+
+    def test_what_enters_by_elaboration_is_covered_and_nothing_of_the_flow(self) -> None:
+        known = {name: report for name, report in reports.load(ROOT).items() if "synth/elaborated.py" in report.confirm}
+        self.assertEqual(set(known), {"synth", "power", "layout", "subsystem", "growth", "namings"})
+        before = {name: (reports.not_covered(report, SourceTree(ROOT)), reports.inputs(report, SourceTree(ROOT)).digest)
+                  for name, report in known.items()}
+        for file in (*self.FLOW, *self.ELABORATED):
+            tree = OneChanged(file)
+            for name, report in known.items():
+                with self.subTest(file=file, report=name):
+                    self.assertNotEqual(reports.inputs(report, tree).digest, before[name][1])
+                    self.assertEqual(reports.not_covered(report, tree) == before[name][0], file in self.ELABORATED)
+
+    def test_each_report_is_confirmed_by_its_own_netlists_and_stimuli(self) -> None:
+        for name, report in reports.load(ROOT).items():
+            for command in filter(None, report.confirm.split(" && ")):
+                program, argument = command.split()
+                self.assertTrue((ROOT / program).is_file())
+                self.assertEqual(argument, name)
+            self.assertEqual("scripts/stimuli.py" in report.confirm, any("tb_cpp/vectors" in pattern for pattern in report.confirm_covers))
+
+    def test_what_is_simulated_and_not_elaborated_is_not_covered(self) -> None:
+        known, before = reports.load(ROOT), SourceTree(ROOT)
+        for name, file in (("power", "hdl/technology/behavioural/dtof_sram_1rw.sv"), ("power", "synth/simulation/stream_bench.sv"),
+                           ("subsystem", "synth/subsystem/dtof_subsystem_bench.sv"), ("layout", "reports/area.csv")):
+            self.assertNotEqual(reports.not_covered(known[name], OneChanged(file)), reports.not_covered(known[name], before))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Area and timing of dtof_subsystem around an array. The array is a black box while the subsystem is mapped, and a cell with the array's
+"""Area, timing and power of dtof_subsystem around an array. The array is a black box while the subsystem is mapped, and a cell with the array's
 measured times (array_stand_in.py) while it is timed.
 
 Modules that dtof_subsystem instantiates stay modules, so that each has an area of its own; what is inside them is flattened. Their names come
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import math
+import pickle
 import re
 from collections import Counter
 from collections.abc import Callable
@@ -18,7 +19,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import astuple, dataclass
 from pathlib import Path
 
-from . import array_stand_in, clock_gating, endpoints, floorplan, loads, netlist, run, spef, sram_kit, timing, tools, verilog
+from . import array_stand_in, clock_gating, endpoints, floorplan, loads, netlist, run, spef, sram_kit, subsystem_power, timing, tools, verilog
 from .array_stand_in import MODES, Ports
 from .canonical import canonical
 from .configuration import Configuration, engine_memories, memories
@@ -27,6 +28,7 @@ from .library import Library
 from .netlist import Counts
 from .run import Effort, Result, Technology
 from .standard_cells import CINV_FF, FO4_NS
+from .subsystem_power import SubsystemPower
 from .subsystem_ends import ARRAY, Ends, count_ends, judge_ends, pins_of_slow_edges, timed_ends
 from .timing import Margin
 
@@ -39,6 +41,7 @@ EFFORTS = (run.LAYOUT_EFFORT, run.EFFORTS[-1])  # the first that closes with mar
 HOLD_ROUNDS = 4
 RESIZE_ROUNDS = 3
 EDGE_ROUNDS = 4
+SEED = 1  # of the simulation for the power
 _INSTANCE = re.compile(r"^  cell (\S+) (\S+)$", re.MULTILINE)
 
 
@@ -75,6 +78,7 @@ class Subsystem:
     slow_edges: dict[str, int]  # by corner: pins beyond the library's max_transition
     overloaded: list[str]  # drivers inside modules with more load than max_capacitance, or with too many inputs
     target_mhz: float
+    power: SubsystemPower
 
     @property
     def counts(self) -> Counts:
@@ -435,14 +439,31 @@ def measure(result: Result, technology: Technology, runs: Path, folder: Path) ->
     ends, late = timed.ends()
     slacks = {(corner, mode): timed.slacks(corner, mode) for corner in CORNERS for mode in MODES}
     slow_edges = {corner: len(timed.slow_edges(corner)) for corner in CORNERS}
-    return Subsystem(configuration, timed.parts(), result.total_mm2, slacks, ends, late, slow_edges, timed.overloaded(), technology.target_mhz)
+    parts, overloaded = timed.parts(), timed.overloaded()
+    power = subsystem_power.measure(timed.design, configuration, ports["slow"], timed.others, technology, folder / "power", SEED)
+    return Subsystem(configuration, parts, result.total_mm2, slacks, ends, late, slow_edges, overloaded, technology.target_mhz, power)
 
 
-def measure_all(results: list[Result], technology: Technology, build: Path, workers: int, progress: Callable[[str], None]) -> list[Subsystem]:
-    """The subsystems around several arrays, whose runs are in `build`. The first failure stops all."""
+def measure_once(result: Result, technology: Technology, runs: Path, folder: Path, digest: str) -> Subsystem:
+    """As `measure`, whose result is kept until an input changes. `digest`: of the report's inputs."""
+    kept, key = folder / "result.pickle", (result.configuration.rtl_parameters(), digest)
+    try:
+        of, found = pickle.loads(kept.read_bytes())
+        if of == key:
+            return found
+    except (OSError, pickle.UnpicklingError, EOFError, AttributeError, TypeError, ValueError, ImportError):
+        pass
+    found = measure(result, technology, runs, folder)
+    kept.write_bytes(pickle.dumps((key, found)))
+    return found
+
+
+def measure_all(results: list[Result], technology: Technology, build: Path, workers: int, digest: str,
+                progress: Callable[[str], None]) -> list[Subsystem]:
+    """The subsystems around several arrays, whose runs are in `build`. The first failure stops all; what is finished is kept."""
     with ProcessPoolExecutor(workers) as pool:
-        futures = {result.configuration.name: pool.submit(measure, result, technology, build / "runs" / result.configuration.name,
-                                                          build / "subsystem" / result.configuration.name) for result in results}
+        futures = {result.configuration.name: pool.submit(measure_once, result, technology, build / "runs" / result.configuration.name,
+                                                          build / "subsystem" / result.configuration.name, digest) for result in results}
         found = []
         for name, future in futures.items():
             found.append(future.result())

@@ -30,7 +30,7 @@ def _run(names: list[str], jobs: int) -> bool:
     build = ROOT / "build" / "synth"
     technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
     results = batch.run_all([batch.Job(item) for item in chosen], technology, build / "runs", jobs, _say)
-    found = subsystem.measure_all([results[item.name] for item in chosen], technology, build, jobs, _say)
+    found = subsystem.measure_all([results[item.name] for item in chosen], technology, build, jobs, digest, _say)
     goals = subsystem_report.goals(found)
     for goal in goals:
         _say(f"{'met' if goal.met else 'missed'}: {goal.text}: {goal.value}")
@@ -44,7 +44,7 @@ def _run(names: list[str], jobs: int) -> bool:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description="Area and timing of dtof_subsystem around arrays.")
+    parser = argparse.ArgumentParser(description="Area, timing and power of dtof_subsystem around arrays.")
     parser.add_argument("configuration", nargs="*", help="names from configurations.toml, without renewing reports/; none: "
                         f"{', '.join(subsystem.CONFIGURATIONS)}")
     parser.add_argument("--strict", action="store_true", help="fail if a goal is missed")

@@ -7,7 +7,8 @@ import csv
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from . import line_buffer
+from . import line_buffer, subsystem_power
+from .activity import STREAMING
 from .goals import Goal
 from .subsystem import CORNERS, MODES, TOP, Subsystem
 
@@ -46,6 +47,9 @@ def _answer(found: Sequence[Subsystem]) -> str:
     late = sorted({name for one in found for name, slack in one.late.items() if slack < 0})
     size = (f"Around an array of {found[0].configuration['SRAM_NUM']} columns, `{TOP}` takes {min(areas):.3f} to {max(areas):.3f} mm2, "
             f"{min(shares):.1%} to {max(shares):.1%} of the array.")
+    lines, idle = [one.power.streaming.total for one in found], [one.power.idle for one in found]
+    size += (f" Without the array it takes {min(lines):.1f} to {max(lines):.1f} mW while lines stream in, and {min(idle):.1f} to {max(idle):.1f} mW "
+             "idle.")
     missed = [one.configuration.title for one in found if one.worst("margins") < 0]
     if not missed:
         return f"{size} It closes {found[0].target_mhz:g} MHz with margins around every array."
@@ -85,6 +89,36 @@ def _late_rows(found: Sequence[Subsystem]) -> list[list[str]]:
     return [[TITLES.get(name, f"`{name}`"), *(f"{one.late[name]:+.3f}" if name in one.late else "-" for one in found)] for name in names]
 
 
+def _power_rows(found: Sequence[Subsystem]) -> list[list[str]]:
+    rows = []
+    for one in found:
+        lines, results = one.power.streaming, one.power.results
+        sent = [f"{value:.2f}" for value in (results.logic, results.clock, results.total)] if results else ["-"] * 3
+        rows.append([one.configuration.title, *(f"{value:.2f}" for value in (lines.logic, lines.clock, lines.leakage, lines.total)), *sent,
+                     f"{one.power.idle:.2f}", f"{one.power.clocks[STREAMING]}", f"{one.power.compared or '-'}"])
+    return rows
+
+
+def _compared(found: Sequence[Subsystem]) -> str:
+    """Around which arrays results are compared."""
+    def named(compared: bool) -> str:
+        return ", ".join(one.configuration.title for one in found if bool(one.power.compared) == compared)
+
+    text = f"Around {named(True)} the first {subsystem_power.MOST_RESULTS} results are simulated, and are those of the model. " if named(True) else ""
+    if named(False):
+        text += (f"Around {named(False)} **no result is compared**: the first one comes thousands of clocks behind the last line, and the simulation "
+                 f"ends {subsystem_power.QUIET_CLOCKS} clocks behind it. Only the first of several passes is simulated, and a pool read-out "
+                 "takes all lines in its first phase.")
+    return text.rstrip()
+
+
+def _power_part_rows(found: Sequence[Subsystem]) -> list[list[str]]:
+    """A row per module that takes at least 0.005 mW around some array, the largest first."""
+    most = {name: max(one.power.modules.get(name, 0.0) for one in found) for one in found for name in one.power.modules}
+    return [[OWN if name == TOP else f"`{name}`", *(f"{one.power.modules.get(name, 0.0):.2f}" for one in found)]
+            for name in sorted(most, key=lambda name: -most[name]) if most[name] >= 0.005]
+
+
 def _pessimism(found: Sequence[Subsystem]) -> str:
     """What makes slacks smaller than they could be."""
     text = "Each module is mapped alone, so no logic is optimised across borders of modules."
@@ -107,8 +141,7 @@ def report(found: Sequence[Subsystem], digest: str) -> str:
         "# Subsystem", "", _answer(found), "",
         f"Written by `make synth-subsystem`: `{TOP}` with its default parameters around each array, library `generic40`, "
         f"{found[0].target_mhz:g} MHz; inputs `{digest[:12]}`. Generated libraries from public figures, not sign-off: "
-        "[docs/reference/technology.md](../docs/reference/technology.md). This page has no power: the activity of the subsystem is not "
-        "simulated.", "",
+        "[docs/reference/technology.md](../docs/reference/technology.md).", "",
         "## Area", "",
         "The array's area is that of [area.md](area.md). Subsystem: all cells around the array, with buffers and clock gates, without the "
         "clock tree. By default the subsystem has no raster buffer and no SRAM.", "",
@@ -132,6 +165,19 @@ def report(found: Sequence[Subsystem], digest: str) -> str:
         "Edges: OpenSTA compares the transition at every pin with the library's max_transition, in three corners. Loads: those of the nets "
         "inside modules, with the wire load, compared with max_capacitance and with a number of inputs; nets between modules are not "
         "compared.", "",
+        "## Power", "",
+        f"mW of `{TOP}` without the array, typical corner, {found[0].target_mhz:g} MHz. Power of the array: [power.md](power.md). The "
+        "netlist of the timing is simulated with the RTL of the array inside, and every transition of every net is counted: "
+        f"{subsystem_power.ACQUISITIONS} acquisitions of the scene `{subsystem_power.SCENE}` at {subsystem_power.KLUX:g} klux, a line in every "
+        f"clock. {_compared(found)}", "",
+        "Lines: the clocks in which the subsystem takes a line. Results: all other clocks, from the reset to the last result that was compared. "
+        "Idle: no line, no register access, no clock gate open. Logic: nets and cells. Clock: pins of flip-flops and clock gates, an estimated "
+        "tree, and what runs behind clock gates. Not counted: glitches, because the models of the cells have no delay; the wires from the line buffer "
+        "to the array; the optional raster buffer, which is not built.", "",
+        *_table(["read-out", "lines: logic", "clock", "leakage", "total", "results: logic", "clock", "total", "idle", "clocks with a line",
+                 "results compared"], _power_rows(found)),
+        "Logic and gated clocks while lines stream in, by module:", "",
+        *_table(["module", *titles], _power_part_rows(found)),
         "## Ends of paths", "",
         "Ends: pins with a setup time, the array's included, and output ports. OpenSTA must time every end for setup and hold, except those "
         "on which it finds a constant, and the side band of the SRAMs. Its check_setup must find no register without a clock, no port without "
@@ -145,11 +191,12 @@ def write_csv(path: Path, found: Iterable[Subsystem]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["configuration", "array_mm2", "subsystem_mm2", "share", "line_buffer_mm2", "cells", "flip_flops", "ends", "timed_ends",
-                         "resets", *(f"{corner}_{mode}_{kind}_ns" for corner in CORNERS for mode in MODES
-                                     for kind in ("setup", "hold", "reset"))])
+                         "resets", "lines_mw", "results_mw", "idle_mw", "results_compared",
+                         *(f"{corner}_{mode}_{kind}_ns" for corner in CORNERS for mode in MODES for kind in ("setup", "hold", "reset"))])
         for one in found:
             writer.writerow([one.configuration.name, f"{one.array_mm2:.4f}", f"{one.mm2:.5f}", f"{one.share:.4f}",
                              f"{one.part(LINE_BUFFER).counts.area / 1e6:.5f}", one.counts.cells, one.counts.flip_flops, one.ends.all,
-                             one.ends.timed, one.ends.resets,
+                             one.ends.timed, one.ends.resets, f"{one.power.streaming.total:.3f}",
+                             f"{one.power.results.total:.3f}" if one.power.results else "", f"{one.power.idle:.3f}", one.power.compared,
                              *(f"{value:.4f}" for corner in CORNERS for mode in MODES
                                for value in (one.slacks[corner, mode].setup, one.slacks[corner, mode].hold, one.slacks[corner, mode].reset))])

@@ -10,9 +10,11 @@ from pathlib import Path
 from unittest import mock
 
 from dtof_synth import array_stand_in, library, standard_cells, subsystem, subsystem_report, timing
+from dtof_synth.activity import STREAMING
 from dtof_synth.array_stand_in import MODES, Port, Ports
 from dtof_synth.errors import FlowError
 from dtof_synth.run import Technology
+from dtof_synth.subsystem_power import Parts, SubsystemPower
 from dtof_synth.subsystem import Ends, Part, Slacks, Subsystem
 
 from .partial import part_of
@@ -165,14 +167,32 @@ def around(name: str, line_buffer_um2: float = 20000.0, setup: float = 0.1, edge
               for corner in subsystem.CORNERS for mode in MODES}
     return Subsystem(result(name).configuration, parts, 1.0, slacks, Ends(50, 46, 3, 1, 12, 7, 30),
                      {"dtof_line_buffer": 0.1, "dtof_watchdog": setup, "array_stand_in": 0.4},
-                     {"slow": edges, "typical": 0, "fast": 0}, list(overloaded), 330.0)
+                     {"slow": edges, "typical": 0, "fast": 0}, list(overloaded), 330.0,
+                     SubsystemPower(Parts(3.0, 2.0, 0.25), Parts(1.0, 1.5, 0.25) if name == "ezpointer" else None, 1.2,
+                                    {"dtof_line_buffer": 4.0, "dtof_settle": 0.001}, {STREAMING: 640}, 200 if name == "ezpointer" else 0))
+
+
+class Kept(unittest.TestCase):
+    def test_a_result_is_kept_until_an_input_changes(self) -> None:
+        measured = [around("ezpointer", setup=setup) for setup in (0.1, 0.2, 0.3, 0.4)]
+        with tempfile.TemporaryDirectory() as name, mock.patch.object(subsystem, "measure", side_effect=measured) as measure:
+            folder, technology = Path(name), part_of(Technology, root=ROOT)
+
+            def once(of: str, digest: str) -> float:
+                return subsystem.measure_once(result(of), technology, folder, folder, digest).late["dtof_watchdog"]
+
+            self.assertEqual([once("ezpointer", "a"), once("ezpointer", "a"), once("ezpointer", "b"), once("hispointer", "b")], [0.1, 0.1, 0.2, 0.3])
+            (folder / "result.pickle").write_bytes(b"torn")
+            self.assertEqual(once("hispointer", "b"), 0.4)
+            self.assertEqual(measure.call_count, 4)
 
 
 class Report(unittest.TestCase):
     def test_the_answer_comes_first(self) -> None:
         lines = subsystem_report.report([around("ezpointer"), around("poolpointer", 40000.0)], "0123456789abcdef").splitlines()
         self.assertEqual(lines[:3], ["# Subsystem", "", "Around an array of 200 columns, `dtof_subsystem` takes 0.021 to 0.041 mm2, 2.1% to 4.1% "
-                                     "of the array. It closes 330 MHz with margins around every array."])
+                                     "of the array. Without the array it takes 5.2 to 5.2 mW while lines stream in, and 1.2 to 1.2 mW idle. It "
+                                     "closes 330 MHz with margins around every array."])
         self.assertIn("inputs `0123456789ab`", "\n".join(lines))
 
     def test_a_miss_and_its_module_come_first(self) -> None:
@@ -187,6 +207,10 @@ class Report(unittest.TestCase):
                     "| poolPointer | slow | +0.500 | +0.200 | +0.300 | -0.250 | +0.200 | +0.300 | `from` | `to` |",
                     "| `dtof_watchdog` | +0.100 | -0.250 |", "| the array | +0.400 | +0.400 |",
                     "| ezPointer | 50 | 46 | 3 | 1 | 12 | 7 | 30 |",
+                    "| ezPointer | 3.00 | 2.00 | 0.25 | 5.25 | 1.00 | 1.50 | 2.75 | 1.20 | 640 | 200 |",
+                    "| poolPointer | 3.00 | 2.00 | 0.25 | 5.25 | - | - | - | 1.20 | 640 | - |",
+                    "Around ezPointer the first 200 results are simulated, and are those of the model. Around poolPointer **no result is "
+                    "compared**", "| `dtof_line_buffer` | 4.00 | 4.00 |",
                     "| ezPointer: line buffer at most 3 % of the array | 2.00% | yes |",
                     "| poolPointer: line buffer at most 3 % of the array | 4.00% | **no** |",
                     "| poolPointer: closes 330 MHz in all corners | worst slack +0.200 ns | yes |",
@@ -215,9 +239,11 @@ class Report(unittest.TestCase):
 
     def test_the_csv_has_a_line_for_each_array(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
-            subsystem_report.write_csv(Path(folder) / "subsystem.csv", [around("ezpointer")])
-            header, line = (Path(folder) / "subsystem.csv").read_text(encoding="utf-8").splitlines()
-        figures = dict(zip(header.split(","), line.split(",")))
+            subsystem_report.write_csv(Path(folder) / "subsystem.csv", [around("ezpointer"), around("poolpointer")])
+            header, line, other = (Path(folder) / "subsystem.csv").read_text(encoding="utf-8").splitlines()
+        figures, without = (dict(zip(header.split(","), one.split(","), strict=True)) for one in (line, other))
+        self.assertEqual([(one["lines_mw"], one["results_mw"], one["idle_mw"], one["results_compared"]) for one in (figures, without)],
+                         [("5.250", "2.750", "1.200", "200"), ("5.250", "", "1.200", "0")])
         self.assertEqual((figures["configuration"], figures["subsystem_mm2"], figures["share"], figures["line_buffer_mm2"], figures["ends"],
                           figures["timed_ends"], figures["slow_margins_setup_ns"], figures["fast_nominal_reset_ns"]),
                          ("ezpointer", "0.02120", "0.0212", "0.02000", "50", "46", "0.1000", "0.3000"))

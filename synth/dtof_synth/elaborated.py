@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`elaborated.py REPORT` prints all that a report of the synthesis takes from hdl/, configurations.toml and readouts.toml: what its Python reads
+of each configuration, and a digest of each elaborated netlist. While this is the same, a change of these files changes no figure of the report
+(scripts/reports.py confirm).
+
+The digest is taken of the canonical netlist (canonical.py), from which the flow goes on, without names that only come from the place in the
+source or from parameters: lines of function calls, and names of modules that Yosys derives. A module is its own text and the digests of the
+modules inside it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import hashlib
+import json
+import os
+import re
+import sys
+from collections.abc import Callable, Iterable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict
+from pathlib import Path
+
+from . import configuration, growth, library, readouts, run, scene_power, signalled_clear, sram_kit, standard_cells, subsystem, tools
+from . import technology as technologies
+from .canonical import canonical
+from .cli import ROOT, all_configurations
+from .configuration import Configuration, engine_memories, memories
+from .errors import FlowError
+
+BUILD = ROOT / "build" / "elaborated"
+Named = dict[str, Configuration]
+# Attributes that no pass of the flow reads after the checks of the RTL. Others, as keep, stay in the digest.
+NO_LOGIC = re.compile(r" *attribute \\(src|hdlname|dynports|wiretype|enum_\w+) ")
+_FUNCTION = re.compile(r"\$func\$\S*?:\d+\$(\d+)")
+_CELL = re.compile(r"  cell (\S+) (\S+)")
+_TEXT_ONLY = {"title", "enumerator", "summary", "style", "model", "choices", "defaults", "memories", "word"}  # of a read-out
+
+
+def _layout(named: Named) -> list[Configuration]:
+    from .layout.command import DEFAULT  # which imports what draws pictures
+    return [named[name] for name in DEFAULT]
+
+
+def _power(named: Named) -> list[Configuration]:
+    whole = [named[name] for name in scene_power.CONFIGURATIONS]
+    return whole + [scene_power.small(item).with_parameters(f"{item.name}_small") for item in whole]
+
+
+# Configurations whose netlists a report's command makes.
+REPORTS: dict[str, Callable[[Named], list[Configuration]]] = {
+    "synth": lambda named: [*named.values(), *signalled_clear.configurations(named)],
+    "power": _power,
+    "layout": _layout,
+    "subsystem": lambda named: [named[name] for name in subsystem.CONFIGURATIONS],
+    "growth": lambda named: list({point.name: point for _, _, point in growth.sweep(named)}.values()),
+    "namings": lambda named: [item for item in named.values() if not item.variant_of],
+}
+
+
+# ---- Digest of a netlist ---------------------------------------------------------------------------------
+
+def _renumbered(lines: list[str]) -> list[str]:
+    """Function calls by number instead of by line: in the order of their first use, then by the number from Yosys."""
+    used = dict.fromkeys(found.group() for line in lines if not line.startswith("  wire ") for found in _FUNCTION.finditer(line))
+    rest = {found.group(): int(found[1]) for line in lines for found in _FUNCTION.finditer(line) if found.group() not in used}
+    number = {name: index for index, name in enumerate([*used, *sorted(rest, key=lambda name: rest[name])])}
+    return [_FUNCTION.sub(lambda found: f"$func${number[found.group()]}", line) for line in lines]
+
+
+def _sorted_wires(lines: list[str]) -> list[str]:
+    """Wires, each with its attributes, in the order of their names; canonical.py puts them before the rest."""
+    wires: list[list[str]] = [[]]
+    for index, line in enumerate(lines):
+        if not line.startswith(("  attribute ", "  wire ")):
+            break
+        wires[-1].append(line)
+        if line.startswith("  wire "):
+            wires.append([])
+            end = index + 1
+    if len(wires) == 1:
+        return lines
+    return [line for wire in sorted(wires[:-1], key=lambda wire: wire[-1].split()[-1]) for line in wire] + lines[end:]
+
+
+def _modules(netlist: str) -> tuple[dict[str, list[str]], str]:
+    """Lines of each module of a canonical netlist (RTLIL), those of its attributes first; and the name of the top."""
+    found: dict[str, list[str]] = {}
+    attributes: list[str] = []
+    name = top = ""
+    for line in netlist.splitlines():
+        if line.startswith("attribute "):
+            attributes.append(line)
+        elif line.startswith("module "):
+            name = line.split()[1]
+            top = name if "attribute \\top 1" in attributes else top
+            found[name] = attributes
+            attributes = []
+        elif line == "end":
+            name = ""
+        elif name:
+            found[name].append(line)
+    return found, top
+
+
+def digest(netlist: str) -> str:
+    """Digest of the top of a canonical netlist (RTLIL) and of all below it."""
+    modules, top = _modules(netlist)
+    if not top:
+        raise FlowError("the elaborated netlist has no top")
+    known: dict[str, str] = {}
+
+    def of(name: str) -> str:
+        if name not in known:
+            lines = [line for line in modules[name] if not line.startswith("  parameter ") and not NO_LOGIC.match(line)]
+            head = [line for line in lines if line.startswith("attribute ")]
+            text = head + _sorted_wires(_renumbered(lines[len(head):]))
+            known[name] = hashlib.sha256("\n".join(_CELL.sub(cell, line) for line in text).encode()).hexdigest()
+        return f"{subsystem.plain_module(name)} {known[name]}"
+
+    def cell(found: re.Match[str]) -> str:
+        return f"  cell {of(found[1])} {found[2]}" if found[1] in modules else found.group()
+
+    return of(top).split()[-1]
+
+
+# ---- Elaboration -----------------------------------------------------------------------------------------
+
+def elaborate(item: Configuration, root: Path, folder: Path, whole_subsystem: bool = False) -> str:
+    """The canonical netlist of an array, as in run.elaborate, or of dtof_subsystem around it, as in subsystem.generic."""
+    folder.mkdir(parents=True, exist_ok=True)
+    liberty = folder / "slow.lib"
+    liberty.write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
+    black_boxes, *technology_files = sram_kit.write_rtl_views(folder, [*memories(item).values(), *engine_memories(item).values()])
+    written = folder / "elaborated.il"
+    script = root / "synth" / "yosys" / "elaborate.tcl"
+    settings: dict[str, tools.Setting] = {
+        "scripts": root / "synth" / "yosys", "top": item.top, "rtl_files": list(run.rtl_files(root)), "rtl_include": root / "hdl" / "common",
+        "technology_files": list(technology_files), "black_boxes": black_boxes, "liberty": liberty, "parameters": dict(item.rtl_parameters()),
+        "elaborated_netlist": written}
+    if whole_subsystem:
+        gate = folder / f"{subsystem.CLOCK_GATE}.sv"
+        gate.write_text(subsystem.clock_gate(library.read(liberty)), encoding="utf-8")
+        script = root / "synth" / "subsystem" / "elaborate.tcl"
+        settings |= {"top": subsystem.TOP, "technology_files": [*technology_files, gate], "parameters": dict(subsystem.parameters(item, root)),
+                     "array_modules": [f"*{name}" for name in subsystem.ARRAYS]}
+    tools.write_settings(folder / "settings.tcl", settings)
+    tools.run_yosys(script, folder / "settings.tcl", folder / "elaborate.log", item.name)
+    text = canonical(written.read_text(encoding="utf-8"), root)
+    written.unlink()
+    return text
+
+
+def _work(job: tuple[Configuration, Path, Path, bool]) -> str:
+    return digest(elaborate(*job))
+
+
+# ---- What the flow's Python reads ------------------------------------------------------------------------
+
+def read_by_the_flow(root: Path) -> list[str]:
+    """Parameters that the flow's Python names. What no file names enters a report by elaboration alone."""
+    known = readouts.load().parameters.keys()
+    return sorted({node.value for file in (root / "synth" / "dtof_synth").rglob("*.py")
+                   for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+                   if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value in known})
+
+
+def described(item: Configuration, parameters: Iterable[str]) -> str:
+    """What the flow's Python reads of a configuration, in one line."""
+    readout = {name: readouts.evaluate(value, item.parameters) if name in ("passes", "bin_width", "scan_width", "decode_clocks")
+               and value is not None else value for name, value in asdict(item.described).items() if name not in _TEXT_ONLY}
+    return json.dumps({
+        "title": item.title, "variant_of": item.variant_of, "thesis_mm2": item.thesis_mm2, "note": item.note, "readout": readout,
+        "parameters": {name: item[name] for name in parameters if name in item.parameters},
+        "memories": {name: size.name for name, size in memories(item).items()},
+        "engine_memories": {name: size.name for name, size in engine_memories(item).items()}}, ensure_ascii=False)
+
+
+def lines(report: str, root: Path, folder: Path, workers: int) -> list[str]:
+    """The output for a report."""
+    named = configuration.load(root / "configurations.toml")
+    chosen = REPORTS[report](named)
+    parameters = read_by_the_flow(root)
+    text = [f"sram {size.name} {' '.join(users)}" for size, users in sorted(technologies.needed_sizes(all_configurations(named)).items())]
+    text += [f"configuration {item.name} {described(item, parameters)}" for item in chosen]
+    jobs = [(item, root, folder / item.name, False) for item in chosen]
+    if report == "subsystem":
+        jobs += [(item, root, folder / f"{item.name}_subsystem", True) for item in chosen]
+    with ProcessPoolExecutor(workers) as pool:
+        found = list(pool.map(_work, jobs))
+    return text + [f"netlist {place.name} {one}" for (_, _, place, _), one in zip(jobs, found, strict=True)]
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Digests of the elaborated netlists of a report of the synthesis, and what the flow reads beside "
+                                     "them.")
+    parser.add_argument("report", choices=REPORTS)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="netlists at the same time")
+    arguments = parser.parse_args()
+    try:
+        print("\n".join(lines(arguments.report, ROOT, BUILD, max(arguments.jobs, 1))))
+    except FlowError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    return 0
