@@ -94,6 +94,7 @@ PoolWinners as_winners(std::span<const Measurement> column, const PoolWinners& g
   for (std::size_t row = 0; row < column.size(); ++row) {
     winners.push_back({.position = static_cast<std::int32_t>(std::lround(column[row].position * units)),
                        .lost = 0,
+                       .advantage = 0,
                        .margin = 0,
                        .background = groups[row].background});
   }
