@@ -184,7 +184,8 @@ PoolNumbers pool_pointer_parameters(const ReadoutParameters& parameters) {
                         .smooth_reach = smooth_reach_of(parameters.pool.cell_shift),
                         .coarse_template = parameters.pool.coarse_template,
                         .keeps_prior = parameters.pool.prior,
-                        .second_target = parameters.pool.second_target};
+                        .second_target = parameters.pool.second_target,
+                        .amplitude = parameters.pool.amplitude};
   own.validate();
   return own;
 }
