@@ -143,7 +143,8 @@ def report(found: Sequence[Subsystem], digest: str) -> str:
         f"{found[0].target_mhz:g} MHz; inputs `{digest[:12]}`. Generated libraries from public figures, not sign-off: "
         "[docs/reference/technology.md](../docs/reference/technology.md).", "",
         "## Area", "",
-        "The array's area is that of [area.md](area.md). Subsystem: all cells around the array, with buffers and clock gates, without the "
+        "The arrays were synthesised for this page. Their logic is that of [area.md](area.md), which has the area to quote. Where the areas differ, "
+        "the names of nets differ, on which the mapping by ABC depends. Subsystem: all cells around the array, with buffers and clock gates, without the "
         "clock tree. By default the subsystem has no raster buffer and no SRAM.", "",
         *_table(["read-out", "array mm2", "subsystem mm2", "of the array", "both mm2", "cells", "flip-flops", "buffers"], _area_rows(found)),
         f"In um2, by module; {OWN}: cells of `{TOP}` outside its modules.", "",
