@@ -2,8 +2,8 @@
 """Power of dtof_subsystem around an array, from activity: its timed netlist is simulated with the RTL of the array inside.
 
 Icarus Verilog runs the first acquisitions of the room scene (synth/subsystem/dtof_subsystem_bench.sv) and writes every change of every net;
-activity.py counts. The first results are compared with the model's. Where an array computes for thousands of clocks before its first result,
-the simulation ends behind the lines, and nothing is compared. Models have no delay, so there are no glitches. Wires have the library's wire
+activity.py counts. The first results are compared with the model's. Where an array computes for thousands of clocks before its first results,
+or they are not awaited (awaits_results), the simulation ends behind the lines, and few results or none are compared. Models have no delay, so there are no glitches. Wires have the library's wire
 load. The array's own power, with its input pins, is that of `make power`.
 """
 

@@ -106,9 +106,9 @@ def _compared(found: Sequence[Subsystem]) -> str:
 
     text = f"Around {named(True)} the first {subsystem_power.MOST_RESULTS} results are simulated, and are those of the model. " if named(True) else ""
     if named(False):
-        text += (f"Around {named(False)} **no result is compared**: the first one comes thousands of clocks behind the last line, and the simulation "
-                 f"ends {subsystem_power.QUIET_CLOCKS} clocks behind it. Only the first of several passes is simulated, and a pool read-out "
-                 "takes all lines in its first phase.")
+        text += (f"Around {named(False)} **results are not measured**: the simulation ends {subsystem_power.QUIET_CLOCKS} clocks behind the last "
+                 "line. Results that come before the end are compared, and there are few or none. Only the first of several passes is simulated, and a "
+                 "pool read-out takes all lines in its first phase.")
     return text.rstrip()
 
 
