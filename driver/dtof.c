@@ -470,6 +470,35 @@ dtof_status dtof_unpack_amplitude(uint64_t word, dtof_result *result) {
   return result->raw ? DTOF_STREAM : DTOF_OK;
 }
 
+/* Takes word `index` of a frame into a result; *second: whether the word is of a second target. */
+typedef dtof_status (*word_reader)(const uint64_t *words, size_t index, bool *second, dtof_result *result);
+
+/* Unpacks words without row and column, which follow from the order. */
+static dtof_status unpack_in_order(const dtof_device *device, const uint64_t *words, size_t words_of_a_pixel,
+                                   word_reader take_word, dtof_result *results) {
+  size_t pixels = (size_t)device->rows * device->columns;
+  for (size_t i = 0; i < pixels; ++i) {
+    dtof_result result = {0};
+    dtof_status status = dtof_pixel_at(device, i, &result.row, &result.column);
+    for (size_t k = 0; status == DTOF_OK && k < words_of_a_pixel; ++k) {
+      bool second = false;
+      status = take_word(words, words_of_a_pixel * i + k, &second, &result);
+      status = second == (k == 1U) ? status : DTOF_STREAM;
+    }
+    if (status != DTOF_OK) {
+      return DTOF_STREAM;
+    }
+    results[(size_t)result.row * device->columns + result.column] = result;
+  }
+  return DTOF_OK;
+}
+
+static dtof_status take_amplitude_word(const uint64_t *words, size_t index, bool *second,
+                                       dtof_result *result) {
+  *second = FIELD(words[index], DTOF_RESULT_SECOND) != 0;
+  return dtof_unpack_amplitude(words[index], result);
+}
+
 dtof_status dtof_unpack_amplitude_frame(const dtof_device *device, const uint64_t *words, size_t count,
                                         dtof_result *results) {
   size_t pixels = (size_t)device->rows * device->columns;
@@ -480,20 +509,7 @@ dtof_status dtof_unpack_amplitude_frame(const dtof_device *device, const uint64_
   if (count != words_of_a_pixel * pixels) {
     return DTOF_STREAM;
   }
-  for (size_t i = 0; i < pixels; ++i) {
-    dtof_result result;
-    dtof_status status = dtof_pixel_at(device, i, &result.row, &result.column);
-    for (size_t k = 0; status == DTOF_OK && k < words_of_a_pixel; ++k) {
-      uint64_t word = words[words_of_a_pixel * i + k];
-      status = (FIELD(word, DTOF_RESULT_SECOND) != 0) == (k == 1U) ? dtof_unpack_amplitude(word, &result)
-                                                                   : DTOF_STREAM;
-    }
-    if (status != DTOF_OK) {
-      return DTOF_STREAM;
-    }
-    results[(size_t)result.row * device->columns + result.column] = result;
-  }
-  return DTOF_OK;
+  return unpack_in_order(device, words, words_of_a_pixel, take_amplitude_word, results);
 }
 
 dtof_status dtof_unpack_short(uint32_t word, dtof_result *result) {
@@ -531,6 +547,12 @@ static uint32_t short_word(const uint64_t *words, size_t index) {
   return (uint32_t)(words[index / 2U] >> (index % 2U * SHORT_WORD_BITS));
 }
 
+static dtof_status take_short_word(const uint64_t *words, size_t index, bool *second, dtof_result *result) {
+  uint32_t word = short_word(words, index);
+  *second = FIELD(word, DTOF_SHORT_RESULT_SECOND) != 0;
+  return dtof_unpack_short(word, result);
+}
+
 /* The word that ends an aborted frame: its highest bit is set, or that of its lower half alone, which is no
  * result either. */
 static bool ends_aborted(const uint64_t *words, size_t count) {
@@ -550,20 +572,7 @@ dtof_status dtof_unpack_short_frame(const dtof_device *device, const uint64_t *w
   if (count != (expected + 1U) / 2U || (expected % 2U != 0 && short_word(words, expected) != 0)) {
     return DTOF_STREAM;
   }
-  for (size_t i = 0; i < pixels; ++i) {
-    dtof_result result;
-    dtof_status status = dtof_pixel_at(device, i, &result.row, &result.column);
-    for (size_t k = 0; status == DTOF_OK && k < words_of_a_pixel; ++k) {
-      uint32_t word = short_word(words, words_of_a_pixel * i + k);
-      status = (FIELD(word, DTOF_SHORT_RESULT_SECOND) != 0) == (k == 1U) ? dtof_unpack_short(word, &result)
-                                                                         : DTOF_STREAM;
-    }
-    if (status != DTOF_OK) {
-      return DTOF_STREAM;
-    }
-    results[(size_t)result.row * device->columns + result.column] = result;
-  }
-  return DTOF_OK;
+  return unpack_in_order(device, words, words_of_a_pixel, take_short_word, results);
 }
 
 dtof_status dtof_unpack_raw(const dtof_device *device, uint16_t first_row, uint16_t last_row,

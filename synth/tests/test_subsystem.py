@@ -209,8 +209,8 @@ class Report(unittest.TestCase):
                     "| ezPointer | 50 | 46 | 3 | 1 | 12 | 7 | 30 |",
                     "| ezPointer | 3.00 | 2.00 | 0.25 | 5.25 | 1.00 | 1.50 | 2.75 | 1.20 | 640 | 200 |",
                     "| poolPointer | 3.00 | 2.00 | 0.25 | 5.25 | - | - | - | 1.20 | 640 | - |",
-                    "Around ezPointer the first 200 results are simulated, and are those of the model. Around poolPointer **no result is "
-                    "compared**", "| `dtof_line_buffer` | 4.00 | 4.00 |",
+                    "Around ezPointer the first 200 results are simulated, and are those of the model. Around poolPointer **results are "
+                    "not measured**", "| `dtof_line_buffer` | 4.00 | 4.00 |",
                     "| ezPointer: line buffer at most 3 % of the array | 2.00% | yes |",
                     "| poolPointer: line buffer at most 3 % of the array | 4.00% | **no** |",
                     "| poolPointer: closes 330 MHz in all corners | worst slack +0.200 ns | yes |",
