@@ -9,7 +9,6 @@
 namespace dtof {
 namespace {
 
-constexpr std::uint64_t kClocksOfAnAbort = 20;
 constexpr std::uint64_t kPlaceMask = DTOF_RESULT_ROW_MASK | DTOF_RESULT_COLUMN_MASK;
 
 class AmplitudeWords : public Subsystem {
@@ -98,23 +97,8 @@ TEST_P(AmplitudeWords, KeepTheKindOfTheirFrameInContinuousMode) {
   FrameSettings settings = everything_counts(1);
   write_settings(bench_, settings);
   constexpr std::size_t kFrames = 40;
-  push_lines(bench_, make_lines(bench_.configuration(), 2 * kFrames, random));
-  bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
-  while (bench_.sink().frames().size() < kFrames) {
-    bench_.set(DTOF_OUTPUT,
-               DTOF_OUTPUT_SMOOTH_MASK | (pick(random, 2) == 0 ? DTOF_OUTPUT_AMPLITUDE_MASK : 0U));
-    if (pick(random, 3) != 0) {
-      bench_.set(DTOF_COMMIT, DTOF_COMMIT_SETTINGS_MASK);
-    }
-    bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.9;
-    bench_.clocks(random() % 60);
-    if (pick(random, 4) == 0) {  // a sink that holds the last words of a frame while the next one begins
-      bench_.sink().blocked = true;
-      bench_.clocks(random() % 300);
-      bench_.sink().blocked = false;
-    }
-  }
-  bench_.set(DTOF_CONTROL, DTOF_CONTROL_ABORT_MASK | DTOF_CONTROL_FLUSH_MASK);
+  run_with_changing_output(bench_, DTOF_OUTPUT_AMPLITUDE_MASK,
+                           make_lines(bench_.configuration(), 2 * kFrames, random), kFrames, random);
   std::size_t changes = 0;
   for (std::size_t frame = 0; frame < kFrames; ++frame) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);

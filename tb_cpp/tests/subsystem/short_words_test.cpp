@@ -10,7 +10,6 @@ namespace dtof {
 namespace {
 
 constexpr std::uint32_t kAcquisitions = 4;
-constexpr std::uint64_t kClocksOfAnAbort = 20;
 
 class ShortWords : public Subsystem {
  protected:
@@ -120,27 +119,8 @@ TEST_P(ShortWords, KeepTheKindOfTheirFrameInContinuousMode) {
   write_settings(bench_, settings);
   constexpr std::size_t kFrames = 60;
   const std::vector<Line> lines = make_lines(bench_.configuration(), 2 * kFrames, random);
-  push_lines(bench_, lines);
-  bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
+  run_with_changing_output(bench_, DTOF_OUTPUT_SHORT_WORDS_MASK, lines, kFrames, random);
   std::size_t changes = 0;
-  while (bench_.sink().frames().size() < kFrames) {
-    // The bench knows the settings that were committed when each frame began.
-    settings.short_words = pick(random, 2) == 0;
-    bench_.set(DTOF_OUTPUT,
-               existing_outputs(bench_.configuration()) &
-                   (DTOF_OUTPUT_SMOOTH_MASK | (settings.short_words ? DTOF_OUTPUT_SHORT_WORDS_MASK : 0U)));
-    if (pick(random, 3) != 0) {
-      bench_.set(DTOF_COMMIT, DTOF_COMMIT_SETTINGS_MASK);
-    }
-    bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.9;
-    bench_.clocks(random() % 60);
-    if (pick(random, 4) == 0) {  // a sink that holds the last words of a frame while the next one begins
-      bench_.sink().blocked = true;
-      bench_.clocks(random() % 300);
-      bench_.sink().blocked = false;
-    }
-  }
-  bench_.set(DTOF_CONTROL, DTOF_CONTROL_ABORT_MASK | DTOF_CONTROL_FLUSH_MASK);
   for (std::size_t frame = 0; frame < kFrames; ++frame) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
     settings.short_words = bench_.sink().short_words()[frame];

@@ -12,7 +12,6 @@
 namespace dtof {
 
 inline constexpr std::uint64_t kMostClocksOfAFrame = 100000;
-inline constexpr std::uint64_t kClocksOfAnAbort = 16;
 inline constexpr std::uint32_t kAbort = DTOF_CONTROL_ABORT_MASK;
 inline constexpr std::uint32_t kAbortAndFlush = DTOF_CONTROL_ABORT_MASK | DTOF_CONTROL_FLUSH_MASK;
 inline constexpr std::uint32_t kNoWatchdog = 0;

@@ -123,6 +123,9 @@ inline std::uint32_t existing_outputs(const RtlConfiguration& configuration) {
          (is_pool_readout(parameters.readout) ? DTOF_OUTPUT_SMOOTH_MASK : 0);
 }
 
+/// Clocks after which an abort has ended the frame, without a sink that waits.
+inline constexpr std::uint64_t kClocksOfAnAbort = 20;
+
 inline void write_settings(SubsystemBench& bench, const FrameSettings& settings) {
   const RtlConfiguration& configuration = bench.configuration();
   bench.set(DTOF_ACQUISITIONS, settings.acquisitions);
@@ -394,6 +397,30 @@ inline void push_lines(SubsystemBench& bench, const std::vector<Line>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     bench.source().push(lines[i], i % bench.acquisition_lines() == bench.acquisition_lines() - 1);
   }
+}
+
+/// Runs `frames` frames of `lines` in continuous mode, then aborts. Meanwhile software sets and clears the
+/// bits `output` of OUTPUT, with and without a commit, and the sink waits at random.
+inline void run_with_changing_output(SubsystemBench& bench, std::uint32_t output,
+                                     const std::vector<Line>& lines, std::size_t frames,
+                                     CounterRandom& random) {
+  push_lines(bench, lines);
+  bench.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
+  while (bench.sink().frames().size() < frames) {
+    bench.set(DTOF_OUTPUT, existing_outputs(bench.configuration()) &
+                               (DTOF_OUTPUT_SMOOTH_MASK | (pick(random, 2) == 0 ? output : 0U)));
+    if (pick(random, 3) != 0) {
+      bench.set(DTOF_COMMIT, DTOF_COMMIT_SETTINGS_MASK);
+    }
+    bench.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.9;
+    bench.clocks(random() % 60);
+    if (pick(random, 4) == 0) {  // a sink that holds the last words of a frame while the next one begins
+      bench.sink().blocked = true;
+      bench.clocks(random() % 300);
+      bench.sink().blocked = false;
+    }
+  }
+  bench.set(DTOF_CONTROL, DTOF_CONTROL_ABORT_MASK | DTOF_CONTROL_FLUSH_MASK);
 }
 
 /// Lines of a frame that reach the array: those after the acquisitions that the frame drops.
