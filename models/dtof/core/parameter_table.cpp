@@ -72,7 +72,7 @@ constexpr auto kEntries = std::to_array<ParameterEntry>({
         "even and at least 2"),
     entry<&PoolPointerParameters::coarse_share>("COARSE_SHARE",
         "64ths of a frame that the coarse phase is recommended to take",
-        "1 to 62 1/64 of a frame"),
+        "1 to 62"),
     entry<&PoolPointerParameters::track_share>("TRACK_SHARE",
         "64ths of a frame that the track phase is recommended to take",
         "at least 1, and at most 63 together with COARSE_SHARE"),
