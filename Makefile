@@ -32,8 +32,9 @@ endif
 
 BUILD := build/cpp
 # SMALL=1: the same steps on less work, whose results lie in build/small and never in reports/ (scripts/figures/small.py)
-OUT := $(if $(SMALL),build/small/)build
-REPORTS := $(if $(SMALL),build/small/)reports
+WRITTEN_ROOT := $(if $(SMALL),build/small/)
+OUT := $(WRITTEN_ROOT)build
+REPORTS := $(WRITTEN_ROOT)reports
 SEED ?= 1
 SHARED_DATA ?= ../shared/data
 DTOF := $(BUILD)/bin/dtof

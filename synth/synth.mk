@@ -50,7 +50,7 @@ synth-growth:
 
 synth-estimate: $(if $(POINTS),vectors)
 	@scripts/reports.py begin estimate
-	@synth/synth.py estimate $(if $(POINTS),--points)
+	@synth/synth.py estimate $(if $(POINTS),--points) $(if $(SMALL),--out $(WRITTEN_ROOT))
 	@scripts/reports.py record estimate
 
 synth-test: vectors

@@ -256,7 +256,7 @@ def _estimate(arguments: argparse.Namespace, _: dict[str, Configuration]) -> int
     """Fits the models of `dtof design` to figures of make synth, of make power and of their own points."""
     if arguments.points:
         estimate_points.run(ROOT, arguments.seed, arguments.jobs, _say)
-    found = estimate.write(ROOT)
+    found = estimate.write(ROOT, arguments.out)
     for figure, goal in estimate.GOALS.items():
         for kind in sorted({one.kind for one in found if one.figure == figure}):
             _say(f"{figure}, {kind}: at most {estimate.worst(found, figure, (kind,)):.1%}, root mean square "
@@ -366,6 +366,7 @@ def _parser() -> argparse.ArgumentParser:
     models = commands.add_parser("estimate", help="fit the models of area and power of `dtof design`")
     models.add_argument("--points", action="store_true", help=f"measure the points of {estimate.POINTS} anew first")
     models.add_argument("--seed", type=int, default=1, help="of the photons")
+    models.add_argument("--out", type=Path, default=ROOT, help="root below which models/ and reports/ are written")
     models.set_defaults(action=_estimate)
     all_real = commands.add_parser("flat", help="the slack with every column real beside that with stand-ins")
     all_real.add_argument("configuration", nargs="*", help=f"names from configurations.toml; none: {', '.join(FLAT)}")

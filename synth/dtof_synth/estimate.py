@@ -392,10 +392,11 @@ def report(root: Path, found: list[Error]) -> str:
     return "\n".join([*lines, ""])
 
 
-def write(root: Path) -> list[Error]:
-    """Writes coefficients and report from the present figures."""
+def write(root: Path, written: Path) -> list[Error]:
+    """Writes coefficients and report from the figures below `root` into the same places below `written`."""
     points, steps = read(root), read_steps(root)
     found = checked(errors(points, steps))
-    (root / COEFFICIENTS).write_text(coefficients(root, fit(points, steps), found), encoding="utf-8")
-    (root / REPORT).write_text(report(root, found), encoding="utf-8")
+    for name, text in ((COEFFICIENTS, coefficients(root, fit(points, steps), found)), (REPORT, report(root, found))):
+        (written / name).parent.mkdir(parents=True, exist_ok=True)
+        (written / name).write_text(text, encoding="utf-8")
     return found

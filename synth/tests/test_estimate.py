@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The models of `dtof design`: what they are fitted to, what is held out, and what they say of their error."""
 
+import tempfile
 import unittest
 from dataclasses import replace
+from pathlib import Path
 from unittest import mock
 
 from dtof_synth import configuration, estimate
@@ -107,6 +109,13 @@ class Estimate(unittest.TestCase):
         self.assertIn(f'digest = "{estimate.digest(ROOT)}"', text, "run synth/synth.py estimate")
         measured, steps = estimate.read(ROOT), estimate.read_steps(ROOT)
         self.assertEqual(text, estimate.coefficients(ROOT, estimate.fit(measured, steps), estimate.errors(measured, steps)))
+
+    def test_another_root_gets_the_same_files(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            estimate.write(ROOT, Path(temporary))
+            self.assertEqual((Path(temporary) / estimate.COEFFICIENTS).read_text(encoding="utf-8"), (ROOT / estimate.COEFFICIENTS).read_text(encoding="utf-8"))
+            written = {str(path.relative_to(temporary)) for path in Path(temporary).rglob("*.*")}
+            self.assertEqual(written, {estimate.COEFFICIENTS, estimate.REPORT})
 
     def test_every_point_has_figures_and_a_note(self):
         known = {one.configuration.name for one in estimate.read(ROOT)}

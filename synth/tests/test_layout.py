@@ -135,6 +135,12 @@ class Parsers(unittest.TestCase):
         for line in ("*D_NET q_o 6", "*I DFF_1:Q O", "*P q_o O", "1 q_o:1 6", "1 DFF_1:Q q_o:1 3"):
             self.assertIn(f"{line}\n", spef)
 
+    def test_a_net_without_a_description_beside_one_with_a_fork(self) -> None:
+        column = block.from_module("column", MODULE, library(), {"sram"})
+        tree = results.Tree("NAND2_1/Y", [results.Branch(2.0, 0.1, [], [results.Branch(4.0, 0.1, ["sram_addr_i_0"])])])
+        spef = wires.spef(column, library(), {"sram_addr_i_0": tree}, {"sram_addr_i_0": 4.0, "q_o": 6.0})
+        self.assertIn("1 DFF_1:Q q_o:1 9\n", spef)  # (2 + 4) ohm of 4 fF, and the net has 6 fF
+
     def test_a_net_of_thousands_of_pieces(self) -> None:
         deep = 5000
         trees = results.read_trees("n1 1 U_1/Y 1 " + "( 1.0 0.1 " * deep + "U_2/A" + " )" * deep + "\n")

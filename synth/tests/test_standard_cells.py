@@ -31,6 +31,9 @@ class StandardCells(unittest.TestCase):
             pin = next(pin for pin in cell.children("pin") if pin.name == "D")
             found = {arc.get("timing_type"): float(dict(arc.groups[0].attributes)["values"][0]) for arc in pin.children("timing")}
             self.assertEqual(list(found), ["setup_rising", "hold_rising"])
+            for arc in pin.children("timing"):  # a rising and a falling D alike
+                self.assertEqual([group.kind for group in arc.groups], ["rise_constraint", "fall_constraint"])
+                self.assertEqual(*(dict(group.attributes)["values"] for group in arc.groups))
             self.assertAlmostEqual(found["setup_rising"], setup * 28 / 25.8, places=4)
             self.assertAlmostEqual(found["hold_rising"], hold * 28 / 25.8, places=4)
 
