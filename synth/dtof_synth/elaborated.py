@@ -3,9 +3,8 @@
 of each configuration, and a digest of each elaborated netlist. While this is the same, a change of these files changes no figure of the report
 (scripts/reports.py confirm).
 
-The digest is taken of the canonical netlist (canonical.py), from which the flow goes on. It holds the cells, their parameters and how they are
-connected, module by module, and neither names of nets nor cells that drive nothing. So the digest says that the logic is the same. Names can still
-move an area by some tenths of a per cent, because ABC's result depends on them.
+The digest is that of the canonical netlist (canonical.py), from which the flow goes on. ABC's result depends on names and on the order of cells,
+which are in the digest, too. So an equal digest stands for an equal result.
 """
 
 from __future__ import annotations
@@ -15,15 +14,11 @@ import ast
 import hashlib
 import json
 import os
-import re
-import subprocess
 import sys
-import tempfile
 from collections.abc import Callable, Iterable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 from . import configuration, growth, library, readouts, run, scene_power, signalled_clear, sram_kit, standard_cells, subsystem, tools
 from . import technology as technologies
@@ -34,9 +29,6 @@ from .errors import FlowError
 
 BUILD = ROOT / "build" / "elaborated"
 Named = dict[str, Configuration]
-Json = dict[str, Any]
-# Attributes that no pass of the flow reads after the checks of the RTL. Others, as keep, stay in the digest.
-NO_LOGIC = re.compile(r"src|hdlname|dynports|wiretype|enum_\w+|top")
 _TEXT_ONLY = {"title", "enumerator", "summary", "style", "model", "choices", "defaults", "memories", "word"}  # of a read-out
 
 
@@ -59,81 +51,6 @@ REPORTS: dict[str, Callable[[Named], list[Configuration]]] = {
     "growth": lambda named: list({point.name: point for _, _, point in growth.sweep(named)}.values()),
     "namings": lambda named: [item for item in named.values() if not item.variant_of],
 }
-
-
-# ---- Digest of a netlist ---------------------------------------------------------------------------------
-
-def _hash(*parts: object) -> str:
-    return hashlib.blake2b(json.dumps(parts, sort_keys=True).encode(), digest_size=12).hexdigest()
-
-
-def _attributes(of: Json) -> Json:
-    return {name: value for name, value in of.get("attributes", {}).items() if not NO_LOGIC.fullmatch(name)}
-
-
-def _structure(module: Json, kind: Callable[[str], str]) -> str:
-    """Digest of a module's cells, and of how they are connected. `kind`: what the type of a cell stands for.
-
-    Each cell begins with a label of its type, its parameters and, for an instance, its name. In each round a cell takes the labels of the cells
-    that drive its inputs into its label, until no round tells more cells apart. Names of nets do not enter.
-    """
-    source: dict[int, tuple[str, str, int]] = {}  # of a bit: cell (or nothing, for a port), port, place
-    for name, port in module["ports"].items():
-        if port["direction"] != "output":
-            source |= {bit: ("", name, place) for place, bit in enumerate(port["bits"]) if isinstance(bit, int)}
-    first: dict[str, str] = {}
-    inputs: dict[str, list[tuple[str, list[int | str]]]] = {}
-    for name, cell in module["cells"].items():
-        is_instance = not cell["type"].startswith("$") or cell["type"].startswith("$paramod")
-        first[name] = _hash(kind(cell["type"]), {} if is_instance else cell["parameters"], _attributes(cell), "" if name.startswith("$") else name)
-        inputs[name] = []
-        for port, bits in sorted(cell["connections"].items()):
-            if cell.get("port_directions", {}).get(port) == "output":
-                source |= {bit: (name, port, place) for place, bit in enumerate(bits) if isinstance(bit, int)}
-            else:
-                inputs[name].append((port, bits))
-    marks: dict[int | str, list[Json]] = {}  # `keep` and the like of the nets of a bit
-    for net in module["netnames"].values():
-        if found := _attributes(net):
-            for place, bit in enumerate(net["bits"]):
-                marks.setdefault(bit, []).append(found | {"init": found["init"][-1 - place]} if "init" in found else found)
-    label = first
-
-    def of(bit: int | str) -> list[object]:
-        cell, port, place = source.get(bit, ("", "", 0)) if isinstance(bit, int) else ("", bit, 0)
-        return [label.get(cell, ""), port, place, sorted(marks.get(bit, []), key=str)]
-
-    known = 0
-    while len(set(label.values())) > known:
-        known = len(set(label.values()))
-        label = {name: _hash(first[name], [[port, [of(bit) for bit in bits]] for port, bits in inputs[name]]) for name in first}
-    outputs = {name: [of(bit) for bit in port["bits"]] for name, port in module["ports"].items() if port["direction"] != "input"}
-    kept = sorted(_hash(found, of(bit)) for bit, found in marks.items())
-    ports = {name: [port["direction"], len(port["bits"])] for name, port in module["ports"].items()}
-    return _hash(sorted(label.values()), ports, outputs, kept, _attributes(module))
-
-
-def digest(netlist: str) -> str:
-    """Digest of the top of a canonical netlist (RTLIL) and of all below it."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        (folder / "netlist.il").write_text(netlist, encoding="utf-8")
-        done = subprocess.run(["yosys", "-q", "-p", "read_rtlil netlist.il; opt_clean; write_json netlist.json"], cwd=folder, check=False,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        if done.returncode:
-            raise FlowError(f"Yosys does not read the elaborated netlist: {done.stdout.strip()}")
-        modules = json.loads((folder / "netlist.json").read_text(encoding="utf-8"))["modules"]
-    tops = [name for name, module in modules.items() if "top" in module["attributes"]]
-    if not tops:
-        raise FlowError("the elaborated netlist has no top")
-    known: dict[str, str] = {}
-
-    def of(kind: str) -> str:
-        if kind in modules and kind not in known:
-            known[kind] = _structure(modules[kind], of)
-        return f"{subsystem.plain_module(kind)} {known[kind]}" if kind in known else kind
-
-    return of(tops[0]).split()[-1]
 
 
 # ---- Elaboration -----------------------------------------------------------------------------------------
@@ -161,6 +78,10 @@ def elaborate(item: Configuration, root: Path, folder: Path, whole_subsystem: bo
     text = canonical(written.read_text(encoding="utf-8"), root)
     written.unlink()
     return text
+
+
+def digest(netlist: str) -> str:
+    return hashlib.blake2b(netlist.encode(), digest_size=12).hexdigest()
 
 
 def _work(job: tuple[Configuration, Path, Path, bool]) -> str:

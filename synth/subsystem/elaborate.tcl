@@ -8,4 +8,5 @@ blackbox {*}$array_modules
 hierarchy -check -top $top
 puts "DTOF_STEP check"
 source $scripts/2_check_rtl.tcl
+opt_clean -purge
 write_rtlil $elaborated_netlist
