@@ -22,6 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import case_tools as tools
+import file_lists
 from case_tools import DTOF, ROOT, CaseError, depth_map, refused, require, require_depths, require_heading, run, shell, succeed, with_shot
 from dtof_synth import program
 
@@ -378,13 +379,15 @@ def installed(case: Case) -> Path:
 
 
 def consumer(case: Case, prefix: Path, **environment: str) -> tools.Done:
-    """Configures the case's project, with include paths as for installed headers."""
+    """Configures the case's project, which was written for version 0.2, with the present version and include paths as for installed headers."""
     source = case.work / "source"
     shutil.copytree(case.folder, source, copy_function=shutil.copyfile)
-    for file in source.glob("*.cpp"):
+    present = {f'#include "{library}/': f'#include "dtof/{library}/' for library in ("readout", "sensor")}
+    present["find_package(dtof 0.2"] = "find_package(dtof " + file_lists.version().rpartition(".")[0]
+    for file in [*source.glob("*.cpp"), source / "CMakeLists.txt"]:
         text = file.read_text(encoding="utf-8")
-        for library in ("readout", "sensor"):
-            text = text.replace(f'#include "{library}/', f'#include "dtof/{library}/')
+        for old, new in present.items():
+            text = text.replace(old, new)
         file.write_text(text, encoding="utf-8")
     return run("cmake", "-S", source, "-B", case.work / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}", folder=case.work, text=None,
                **environment)
