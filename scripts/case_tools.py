@@ -3,6 +3,7 @@
 
 import os
 import re
+import shutil
 import struct
 import subprocess
 import zlib
@@ -167,3 +168,13 @@ def with_shot(chip: Path, work: Path) -> Path:
     copy = work / chip.name
     copy.write_text(text.replace(".irq_o(irq),", ".irq_o(irq), .shot_o(),"), encoding="utf-8")
     return copy
+
+
+def archive(folder: Path) -> Path:
+    """Copies the files of the working tree, without the repository, to `folder`, which it returns."""
+    listed = succeed(run("git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard", folder=ROOT))
+    for file in filter(None, listed.out.split("\0")):
+        if (ROOT / file).is_file() or (ROOT / file).is_symlink():
+            (folder / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / file, folder / file, follow_symlinks=False)
+    return folder

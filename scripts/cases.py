@@ -23,7 +23,7 @@ from pathlib import Path
 
 import case_tools as tools
 import file_lists
-from case_tools import DTOF, ROOT, CaseError, depth_map, refused, require, require_depths, require_heading, run, shell, succeed, with_shot
+from case_tools import DTOF, ROOT, CaseError, archive, depth_map, refused, require, require_depths, require_heading, run, shell, succeed, with_shot
 from dtof_synth import program
 
 CASES = ROOT.parent / "shared" / "cases"
@@ -412,20 +412,9 @@ def consumer_shared(case: Case) -> None:
     succeed(run("cmake", "--build", "build", folder=case.work))
 
 
-def archive(case: Case, name: str) -> Path:
-    """Archive of the project's files in the working tree, without the repository."""
-    folder = case.work / name
-    listed = succeed(run("git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard", folder=case.work))
-    for file in filter(None, listed.out.split("\0")):
-        if (ROOT / file).is_file() or (ROOT / file).is_symlink():
-            (folder / file).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(ROOT / file, folder / file, follow_symlinks=False)
-    return folder
-
-
 @slow_rule
 def moved_build(case: Case) -> None:
-    first = archive(case, "first")
+    first = archive(case.work / "first")
     succeed(run("make", "configure", folder=first))
     first.rename(case.work / "second")
     done = succeed(run("make", "configure", folder=case.work / "second"))
@@ -451,7 +440,7 @@ def release_flags(case: Case) -> None:
 @slow_rule
 def tarball(case: Case) -> None:
     """Outside a repository the lint reads the files of the archive, all of them, and waits for nothing."""
-    folder = archive(case, "T")
+    folder = archive(case.work / "T")
     done = succeed(run("bash", "scripts/lint.sh", "--quick", folder=folder, GIT_CEILING_DIRECTORIES=str(case.work)))
     modules = len(list(folder.rglob("*.py")))
     require(f"pyflakes: {modules} files clean" in done.text, f"the lint reads other files than the {modules} modules of the archive")
