@@ -13,6 +13,7 @@ technology/behavioural/dtof_sram_1rw.sv
 common/dtof_sram.sv
 common/dtof_parity_sram.sv
 common/dtof_array_errors.sv
+common/dtof_event_link.sv
 common/dtof_gate_register.sv
 thesis/dtof_pass_sequencer.sv
 thesis/dtof_pixel_sequencer.sv
@@ -27,7 +28,6 @@ pool/dtof_pool_controller.sv
 pool/dtof_pool_result_output.sv
 pool/dtof_pool_sequencer.sv
 thesis/dtof_data_filter.sv
-thesis/dtof_full_counter_link.sv
 thesis/dtof_histogram_builder.sv
 thesis/dtof_pair_detector.sv
 thesis/dtof_pair_interpolator.sv

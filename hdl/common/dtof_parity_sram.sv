@@ -5,11 +5,13 @@
 //    read_data_o has the wrong word. An even number of wrong bits has no effect on error_o.
 // 2. With PARITY = 0 this module is a dtof_sram and nothing else.
 //
-// Contract: that of dtof_sram; in addition, a word is written before it is read. With PORTS = 2 an address is not read in the clock in
-// which it is written.
-// Schedule: read_en_i in clock 0, data in clock 1, error_o in clock 2 for one clock, from a flip-flop.
+// 3. Words that nobody uses are not checked: words that are written in the clock in which they are read, and words for which
+//    ignore_i is high in the clock of the data. ignore_i is high for a word that was not written before.
+//
+// Contract: that of dtof_sram.
+// Schedule: read_en_i in clock 0, data and ignore_i in clock 1, error_o in clock 2 for one clock, from a flip-flop.
 // Latency: 1 clock to the data, 2 clocks to error_o.
-// Cost with PARITY = 1: one bit per word, two trees of WIDTH XORs, two flip-flops.
+// Cost with PARITY = 1: one bit per word, two trees of WIDTH XORs, two flip-flops; with PORTS = 2 a comparator of addresses.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -29,6 +31,7 @@ module dtof_parity_sram #(
     input  logic                  read_en_i,
     input  logic [ADDR_WIDTH-1:0] read_addr_i,
     output logic [     WIDTH-1:0] read_data_o,
+    input  logic                  ignore_i,             // the word that was read one clock ago is not used
     output logic                  error_o,              // the word that was read two clocks ago is damaged
     input  logic                  write_en_i,
     input  logic [ADDR_WIDTH-1:0] write_addr_i,
@@ -62,19 +65,22 @@ module dtof_parity_sram #(
 
   generate
     if (PARITY != 0) begin : g_parity
-      logic read_q, error_q;
+      logic read_q, error_q, overtaken;
+      assign overtaken = write_en_i && (PORTS == 1 || write_addr_i == read_addr_i);
       assign written = {^write_data_i, write_data_i};
       always_ff @(posedge clk_i or negedge rst_ni) begin
         if (!rst_ni) begin
           read_q <= 1'b0;
           error_q <= 1'b0;
         end else begin
-          read_q <= read_en_i;
-          error_q <= read_q && (^stored);
+          read_q <= read_en_i && !overtaken;
+          error_q <= read_q && !ignore_i && (^stored);
         end
       end
       assign error_o = error_q;
     end else begin : g_no_parity
+      logic unused_ignore;
+      assign unused_ignore = ignore_i;
       assign written = write_data_i;
       assign error_o = 1'b0;
     end

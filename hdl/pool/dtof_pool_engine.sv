@@ -36,6 +36,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     parameter int CELL_SHIFT = 9,
+    parameter int PARITY = 0,  // 1: the scratch memory's words have a parity bit
     parameter int SECOND_TARGET = 0,
     parameter int AMPLITUDE = 0,
     parameter int PRIOR = 0,
@@ -60,6 +61,9 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
+    // chain of damaged words, with PARITY = 1
+    input  logic                    next_parity_error_i,
+    output logic                    parity_error_o,
     input  logic                    smooth_i,       // S1 is on
     input  logic                    has_right_i,    // choose: a column to the right exists; decode: a pair to the right exists
     input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // correction for long frames
@@ -260,10 +264,23 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   endgenerate
   assign decide_scratch = SCRATCH_WIDTH'({decide_message, command_i.back ? winner : scratch[WINNER_WIDTH-1:0]});
 
-  dtof_sram #(
+  logic damaged;
+
+  dtof_event_link #(
+      .PRESENT(PARITY)
+  ) u_parity_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .event_i      (damaged),
+      .next_column_i(next_parity_error_i),
+      .event_o      (parity_error_o)
+  );
+
+  dtof_parity_sram #(
       .PORTS(1),
       .DEPTH(PIXELS_PER_SRAM),
-      .WIDTH(SCRATCH_WIDTH)
+      .WIDTH(SCRATCH_WIDTH),
+      .PARITY(PARITY)
   ) u_scratch_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -272,6 +289,8 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .read_en_i   (command_i.read_scratch),
       .read_addr_i (scratch_row_i),
       .read_data_o (scratch),
+      .ignore_i    (1'b0),
+      .error_o     (damaged),
       .write_en_i  (command_i.write_scratch),
       .write_addr_i(scratch_row_i),
       .write_data_i(command_i.deciding ? decide_scratch : choose_scratch)

@@ -37,6 +37,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int POINTER_SHIFT = 1,      // unit of a pointer: 2^(POINTER_SHIFT - 11) coarse bins; 0 to 2, with ADVANTAGE_WIDTH = 4 to 4
     parameter int RIVAL_MOVES = 1,        // 1: the rival has a pointer; 0: it stays at its candidate
     parameter int CELL_SHIFT = 9,         // log2 of a settled pointer's cells in positions, 8 to 10, by the pulse's width
+    parameter int PARITY = 0,              // 1: each word of the SRAMs has a parity bit, which is checked at each read
     parameter int TIME_GATE = 0,           // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int SECOND_TARGET = 0,      // 1: a result also has the position of the label that lost
     parameter int AMPLITUDE = 0,          // 1: a result also has amplitude and ambient
@@ -69,6 +70,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     output logic                   done_o,
     output logic [            2:0] state_o,
     output logic [dtof_pkg::ERROR_WIDTH-1:0] error_o,  // dtof_pkg::ERROR_*, one clock per error (dtof_array_errors)
+    output logic                   parity_error_o,  // with PARITY = 1: a word with a wrong parity was read; only while busy_o is high
     input  logic                   tdc_valid_i,
     output logic                   tdc_ready_o,
     input  logic [SRAM_NUM*NP-1:0] tdc_timestamp_i,
@@ -101,6 +103,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   localparam int LAST_COLUMNS = SRAM_NUM - (ENGINES - 1) * STEPS;  // columns of the last engine
   localparam int LAST_PAIRS = (LAST_COLUMNS + 1) / 2;
 
+  `DTOF_REQUIRE(g_illegal_parity, PARITY == 0 || PARITY == 1, "dtof_pool_pointer_array: PARITY must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 16, "dtof_pool_pointer_array: NP must be 8 to 16")
   `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1, "dtof_pool_pointer_array: PIXELS_PER_SRAM must be at least 1")
   `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1, "dtof_pool_pointer_array: SRAM_NUM must be at least 1")
@@ -529,6 +532,24 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
+  // Chains of damaged words: along the SRAMs, and along the engines.
+  logic [QUADS:0] quad_errors;
+  logic [ENGINES:0] engine_errors;
+  assign quad_errors[QUADS] = 1'b0;
+  assign engine_errors[ENGINES] = 1'b0;
+
+  dtof_event_link #(
+      .PRESENT(PARITY)
+  ) u_parity_head (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .event_i      (engine_errors[0]),
+      .next_column_i(quad_errors[0]),
+      .event_o      (parity_error_o)
+  );
+
+  `DTOF_ASSERT(a_parity_error_in_frame, !parity_error_o || busy_o, "a word was found damaged outside of a frame")
+
   genvar q, p;
   generate
     for (q = 0; q < QUADS; q = q + 1) begin : g_quad
@@ -566,6 +587,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .POINTER_SHIFT   (POINTER_SHIFT),
           .RIVAL_MOVES     (RIVAL_MOVES),
           .CELL_SHIFT      (CELL_SHIFT),
+          .PARITY          (PARITY),
           .TIME_GATE       (TIME_GATE),
           .PRIOR           (PRIOR),
           .BROADCAST_STAGES(BROADCAST_STAGES)
@@ -574,6 +596,8 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .rst_ni          (rst_ni),
           .sram_cfg_i      (sram_cfg_i),
           .sram_cfg_o      (quad_cfg[q*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
+          .next_parity_error_i(quad_errors[q+1]),
+          .parity_error_o  (quad_errors[q]),
           .timestamp_i     (tdc_timestamp_i[2*FIRST*NP+:QUAD_COLUMNS*NP]),
           .read_i          (received.read),
           .write_i         (received.write),
@@ -679,6 +703,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .POINTER_SHIFT  (POINTER_SHIFT),
           .RIVAL_MOVES    (RIVAL_MOVES),
           .CELL_SHIFT     (CELL_SHIFT),
+          .PARITY         (PARITY),
           .SECOND_TARGET  (SECOND_TARGET),
           .AMPLITUDE      (AMPLITUDE),
           .PRIOR          (PRIOR)
@@ -687,6 +712,8 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .rst_ni       (rst_ni),
           .sram_cfg_i   (sram_cfg_i),
           .sram_cfg_o   (engine_cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
+          .next_parity_error_i(engine_errors[e+1]),
+          .parity_error_o(engine_errors[e]),
           .smooth_i     (received.smooth),
           .has_right_i  (has_right_here),
           .significance_offset_i(received.significance_offset),

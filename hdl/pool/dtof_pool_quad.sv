@@ -25,6 +25,7 @@ module dtof_pool_quad #(
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     parameter int CELL_SHIFT = 9,
+    parameter int PARITY = 0,  // 1: the SRAM's words have a parity bit
     parameter int TIME_GATE = 0,
     parameter int PRIOR = 0,
     parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the columns; timestamps are delayed as much
@@ -49,6 +50,9 @@ module dtof_pool_quad #(
     input  logic                        read_i,
     input  logic                        write_i,
     input  logic [      ADDR_WIDTH-1:0] address_i,
+    // chain of damaged words, with PARITY = 1
+    input  logic                        next_parity_error_i,
+    output logic                        parity_error_o,
     // to all pairs, as in dtof_pool_pair
     input  logic [              NP-1:0] gate_begin_i,
     input  logic [              NP-1:0] gate_end_i,
@@ -89,12 +93,13 @@ module dtof_pool_quad #(
 
   logic [PAIRS*WORD_WIDTH-1:0] read_data, write_data;
   logic [PAIRS-1:0] pair_writes, upper_t2;
-  logic engine_load_q, nothing_upper, sweep_q, make_room_q;
+  logic damaged, engine_load_q, nothing_upper, sweep_q, make_room_q;
 
-  dtof_sram #(
+  dtof_parity_sram #(
       .PORTS(1),
       .DEPTH(DEPTH),
-      .WIDTH(PAIRS * WORD_WIDTH)
+      .WIDTH(PAIRS * WORD_WIDTH),
+      .PARITY(PARITY)
   ) u_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -103,9 +108,21 @@ module dtof_pool_quad #(
       .read_en_i   (read_i && (!engine_i || select_i != '0) && !nothing_upper),
       .read_addr_i (address_i),
       .read_data_o (read_data),
+      .ignore_i    (1'b0),
+      .error_o     (damaged),
       .write_en_i  (write_i && pair_writes != '0),
       .write_addr_i(address_i),
       .write_data_i(write_data)
+  );
+
+  dtof_event_link #(
+      .PRESENT(PARITY)
+  ) u_parity_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .event_i      (damaged),
+      .next_column_i(next_parity_error_i),
+      .event_o      (parity_error_o)
   );
 
   // The second of two parts is read at T2 of a second row. If no choice falls into it, the read is suppressed, and the pair loads the

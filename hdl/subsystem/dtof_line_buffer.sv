@@ -251,6 +251,7 @@ module dtof_line_buffer #(
           .read_en_i   (read),
           .read_addr_i (read_address_q),
           .read_data_o ({head_ends, head}),
+          .ignore_i    (1'b0),
           .error_o     (parity_error_o),
           .write_en_i  (write),
           .write_addr_i(write_address_q),

@@ -151,6 +151,7 @@ module dtof_raster_buffer #(
       .read_en_i   (read),
       .read_addr_i (read_address_q),
       .read_data_o (m_result_o),
+      .ignore_i    (1'b0),
       .error_o     (parity_error_o),
       .write_en_i  (write_q),
       .write_addr_i(write_address_q),

@@ -68,6 +68,8 @@ module dtof_subsystem #(
     parameter int POINTER_PORTS = 2,
     // one status bit an address instead of clearing
     parameter int SIGNALLED_CLEAR = 0,
+    // 1: each word of the SRAMs has a parity bit, which is checked at each read
+    parameter int PARITY = 0,
     // 1: only timestamps from `gate_begin_i` to below `gate_end_i` count
     parameter int TIME_GATE = 0,
     // 1: a frame may send histograms instead of results (`raw_i`)
@@ -112,7 +114,6 @@ module dtof_subsystem #(
     // array's longest wait for its raster, SLOTS - 1 clocks. CLOCK_WAITS = 0: the lines of an acquisition, and four that come while it is taken.
     parameter int BUFFER_LINES = (CLOCK_WAITS != 0) ? dtof_pkg::max_of(SLOTS, 2) : PIXELS_PER_SRAM * SLOTS + 4,
     parameter int RASTER_ORDER = 0,  // 1: a memory of all results sorts them by row and column
-    parameter int PARITY = 0,        // 1: words of the subsystem's memories have parity bits; the array's memories have none
     parameter int SELF_TEST = 0,     // 1: built-in self-test
     localparam int S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8),
     localparam int M_TDATA_WIDTH = dtof_registers_pkg::RESULT_WIDTH
@@ -208,7 +209,7 @@ module dtof_subsystem #(
   logic [7:0] shot_unit;
   logic shot_reseed;
   logic [31:0] lost_lines, lost_acquisitions, parity_errors;
-  logic line_parity_error, raster_parity_error;
+  logic line_parity_error, raster_parity_error, array_parity_error;
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end;
   logic [NP-1:0] gate_begin, gate_end;
   logic [15:0] release_lines, weak_below, settle;
@@ -326,7 +327,7 @@ module dtof_subsystem #(
       .timeout_i         (timeout),
       .stalled_i         (stalled),
       .flush_ignored_i   (flush && !flushes),
-      .parity_error_i    (line_parity_error || raster_parity_error),
+      .parity_error_i    (line_parity_error || raster_parity_error || array_parity_error),
       .self_test_failed_i(test_failed),
       .aborted_i         (aborted),
       .counter_full_i    (counter_full),
@@ -562,7 +563,7 @@ module dtof_subsystem #(
   ) u_parity_errors (
       .clk_i  (clk_i),
       .rst_ni (rst_ni),
-      .step_i (2'(line_parity_error) + 2'(raster_parity_error)),
+      .step_i (2'(line_parity_error) + 2'(raster_parity_error) + 2'(array_parity_error)),
       .count_o(parity_errors)
   );
 
@@ -628,7 +629,7 @@ module dtof_subsystem #(
   // runs until the pipelines hold no data from before. While the gate suppresses a clock edge, the array's outputs have no effect: they
   // are still there in the next clock. If the gate does not work, the array's assertion a_contiguous_acquisition fails.
 
-  logic array_clk, array_busy, array_done, array_counter_full;
+  logic array_clk, array_busy, array_done, array_counter_full, array_damaged;
   logic [7:0] settling_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -653,6 +654,7 @@ module dtof_subsystem #(
 
   assign done = array_done && !array_waits;
   assign counter_full = array_counter_full && !array_waits;
+  assign array_parity_error = array_damaged && !array_waits;
   assign result_tvalid = array_tvalid && !array_waits;
   logic [dtof_pkg::ERROR_WIDTH-1:0] array_error;
 
@@ -674,6 +676,7 @@ module dtof_subsystem #(
           .POINTER_SHIFT(POINTER_SHIFT),
           .RIVAL_MOVES(RIVAL_MOVES),
           .CELL_SHIFT(CELL_SHIFT),
+          .PARITY(PARITY),
           .SECOND_TARGET(SECOND_TARGET),
           .AMPLITUDE(AMPLITUDE),
           .PRIOR(PRIOR),
@@ -699,6 +702,7 @@ module dtof_subsystem #(
           .done_o         (array_done),
           .state_o        (state),
           .error_o        (array_error),
+          .parity_error_o (array_damaged),
           .tdc_valid_i    (array_valid),
           .tdc_ready_o    (tdc_ready),
           .tdc_timestamp_i(timestamps),
@@ -726,6 +730,7 @@ module dtof_subsystem #(
           .WINDOW_CENTRED(WINDOW_CENTRED),
           .POINTER_PORTS(POINTER_PORTS),
           .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+          .PARITY(PARITY),
           .RAW_HISTOGRAM(RAW_HISTOGRAM),
           .ACQ_WIDTH(ACQ_WIDTH),
           .BROADCAST_STAGES(BROADCAST_STAGES)
@@ -747,6 +752,7 @@ module dtof_subsystem #(
           .state_o        (state),
           .error_o        (array_error),
           .counter_full_o (array_counter_full),
+          .parity_error_o (array_damaged),
           .tdc_valid_i    (array_valid),
           .tdc_ready_o    (tdc_ready),
           .tdc_timestamp_i(timestamps),

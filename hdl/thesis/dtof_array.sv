@@ -52,6 +52,7 @@ module dtof_array #(
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int POINTER_PORTS = 2,     // ports of the pointer SRAM; 1 needs SLOTS >= 2
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
+    parameter int PARITY = 0,            // 1: each word of the SRAMs has a parity bit, which is checked at each read
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int RAW_HISTOGRAM = 0,     // 1: raw_i has an effect; a confidence has at least COUNT_WIDTH bits
     parameter int ACQ_WIDTH = 16,        // bits of the run-time number of acquisitions
@@ -80,6 +81,7 @@ module dtof_array #(
     output logic [            2:0] state_o,          // dtof_pkg::STATE_*
     output logic [dtof_pkg::ERROR_WIDTH-1:0] error_o,  // dtof_pkg::ERROR_*, one clock per error (dtof_array_errors)
     output logic                   counter_full_o,   // the first counter of a histogram is full; only while busy_o is high
+    output logic                   parity_error_o,   // with PARITY = 1: a word with a wrong parity was read; only while busy_o is high
     // TDC stream
     input  logic                   tdc_valid_i,      // high for a whole acquisition
     output logic                   tdc_ready_o,      // an acquisition may start, or is in progress
@@ -111,6 +113,7 @@ module dtof_array #(
                 "dtof_array: POINTER_PORTS must be 2, or 1 with SLOTS of at least 2")
   `DTOF_REQUIRE(g_illegal_raw, RAW_HISTOGRAM == 0 || (RAW_HISTOGRAM == 1 && dtof_pkg::has_whole_histogram(READOUT, NP, NB)),
                 "dtof_array: RAW_HISTOGRAM must be 0, or 1 with a histogram that is whole at a frame's end")
+  `DTOF_REQUIRE(g_illegal_parity, PARITY == 0 || PARITY == 1, "dtof_array: PARITY must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 1 && ACQ_WIDTH <= 24, "dtof_array: ACQ_WIDTH must be 1 to 24")
 
   `DTOF_REQUIRE(g_illegal_broadcast, BROADCAST_STAGES >= 1 && BROADCAST_STAGES <= 8,
@@ -388,8 +391,9 @@ module dtof_array #(
 
   // Events of full counters move in the same direction, one column per clock, while timestamps stream in. The last event arrives before
   // the results of the first row have left.
-  logic [SRAM_NUM:0] full_chain;
+  logic [SRAM_NUM:0] full_chain, parity_chain;
   assign full_chain[SRAM_NUM] = 1'b0;
+  assign parity_chain[SRAM_NUM] = 1'b0;
 
   // Commands to the columns. A command that the read-out does not use is zero: synthesis keeps the columns as modules with all ports,
   // and would otherwise keep the logic that drives the unused ports.
@@ -492,6 +496,7 @@ module dtof_array #(
       .WINDOW_CENTRED  (WINDOW_CENTRED), \
       .POINTER_PORTS   (POINTER_PORTS), \
       .SIGNALLED_CLEAR (SIGNALLED_CLEAR), \
+      .PARITY          (PARITY), \
       .TIME_GATE       (TIME_GATE), \
       .RAW_HISTOGRAM   (RAW_HISTOGRAM), \
       .BROADCAST_STAGES(BROADCAST_STAGES) \
@@ -535,7 +540,9 @@ module dtof_array #(
       .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]), \
       .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH]), \
       .next_counter_full_i    (full_chain[c+1]), \
-      .counter_full_o         (full_chain[c]) \
+      .counter_full_o         (full_chain[c]), \
+      .next_parity_error_i    (parity_chain[c+1]), \
+      .parity_error_o         (parity_chain[c]) \
   );
 
   logic [SRAM_NUM*dtof_pkg::SRAM_CFG_WIDTH-1:0] column_cfg;
@@ -562,14 +569,25 @@ module dtof_array #(
     head_q <= chain[RESULT_WIDTH-1:0];
   end
 
-  dtof_full_counter_link u_full_counter_head (
+  dtof_event_link u_full_counter_head (
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
-      .full_i       (1'b0),
+      .event_i      (1'b0),
       .next_column_i(HISTOGRAM != 0 && full_chain[0]),  // a constant without histograms, so that synthesis removes the register
-      .full_o       (counter_full_o)
+      .event_o      (counter_full_o)
   );
 
+  dtof_event_link #(
+      .PRESENT(PARITY)
+  ) u_parity_head (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .event_i      (1'b0),
+      .next_column_i(parity_chain[0]),
+      .event_o      (parity_error_o)
+  );
+
+  `DTOF_ASSERT(a_parity_error_in_frame, !parity_error_o || busy_o, "a word was found damaged outside of a frame")
   `DTOF_ASSERT(a_counter_full_in_frame, !counter_full_o || busy_o, "a counter got full outside of a frame")
 
   dtof_result_output #(

@@ -45,6 +45,7 @@ module dtof_coarse_histogram_column #(
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int POINTER_PORTS = 2,     // ports of an SRAM whose words timestamps change
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
+    parameter int PARITY = 0,            // 1: each word of the SRAMs has a parity bit
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int RAW_HISTOGRAM = 0,     // 1: M4 may scan single bins, whose code and count are the result
     parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the column; timestamps are delayed as much
@@ -61,7 +62,7 @@ module dtof_coarse_histogram_column #(
     // ports of a column: written by scripts/generate.py from scripts/templates/column_ports.svh
     // verilator lint_off UNUSEDSIGNAL
     input  logic                    clk_i,
-    input  logic                    rst_ni,                   // for assertions and the chain of full counters only
+    input  logic                    rst_ni,                   // for assertions, the chains of events and the check of parity only
     // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
@@ -109,7 +110,10 @@ module dtof_coarse_histogram_column #(
     output logic [RESULT_WIDTH-1:0] result_o,                 // {code, fraction, confidence}
     // chain of full counters, in read-outs with a histogram
     input  logic                    next_counter_full_i,
-    output logic                    counter_full_o            // a counter of this column or of the chain before is full
+    output logic                    counter_full_o,           // a counter of this column or of the chain before is full
+    // chain of damaged words, with PARITY = 1
+    input  logic                    next_parity_error_i,
+    output logic                    parity_error_o            // a word that this column or the chain before has read is damaged
     // verilator lint_on UNUSEDSIGNAL
     // end of ports of a column
 );
@@ -119,7 +123,7 @@ module dtof_coarse_histogram_column #(
   localparam int PLACE_BITS = dtof_pkg::max_of(PLACE_WIDTH, 1);
   localparam int POSITION_WIDTH = NP + FRACTION_BITS;
 
-  logic unused_detected, unused_low_bits, detected_t1, full_t5;
+  logic unused_detected, unused_low_bits, detected_t1, full_t5, histogram_error;
   logic [NP-1:0] timestamp_t1;
   logic [COUNT_WIDTH-1:0] count_s2, last_count, confidence;
   logic [COUNT_WIDTH:0] pair_count;
@@ -150,7 +154,8 @@ module dtof_coarse_histogram_column #(
       .BIN_WIDTH      (BIN_WIDTH),
       .SLOTS          (SLOTS),
       .COUNT_WIDTH    (COUNT_WIDTH),
-      .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
+      .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+      .PARITY         (PARITY)
   ) u_histogram_builder (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
@@ -168,7 +173,8 @@ module dtof_coarse_histogram_column #(
       .write_pixel_i  (histogram_write_pixel_i),
       .clear_all_i    (clear_all_i),
       .count_s2_o     (count_s2),
-      .full_t5_o      (full_t5)
+      .full_t5_o      (full_t5),
+      .parity_error_o (histogram_error)
   );
 
   assign unused_low_bits = ^timestamp_t1;
@@ -226,12 +232,22 @@ module dtof_coarse_histogram_column #(
     end
   endgenerate
 
-  dtof_full_counter_link u_full_counter_link (
+  dtof_event_link u_full_counter_link (
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
-      .full_i       (full_t5),
+      .event_i      (full_t5),
       .next_column_i(next_counter_full_i),
-      .full_o       (counter_full_o)
+      .event_o      (counter_full_o)
+  );
+
+  dtof_event_link #(
+      .PRESENT(PARITY)
+  ) u_parity_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .event_i      (histogram_error),
+      .next_column_i(next_parity_error_i),
+      .event_o      (parity_error_o)
   );
 
   dtof_result_register #(

@@ -34,6 +34,7 @@ module dtof_ez_pointer_column #(
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int POINTER_PORTS = 2,     // ports of an SRAM whose words timestamps change
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
+    parameter int PARITY = 0,            // 1: each word of the SRAMs has a parity bit
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int RAW_HISTOGRAM = 0,     // 1: M4 may scan single bins, whose code and count are the result
     parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the column; timestamps are delayed as much
@@ -50,7 +51,7 @@ module dtof_ez_pointer_column #(
     // ports of a column: written by scripts/generate.py from scripts/templates/column_ports.svh
     // verilator lint_off UNUSEDSIGNAL
     input  logic                    clk_i,
-    input  logic                    rst_ni,                   // for assertions and the chain of full counters only
+    input  logic                    rst_ni,                   // for assertions, the chains of events and the check of parity only
     // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
@@ -98,7 +99,10 @@ module dtof_ez_pointer_column #(
     output logic [RESULT_WIDTH-1:0] result_o,                 // {code, fraction, confidence}
     // chain of full counters, in read-outs with a histogram
     input  logic                    next_counter_full_i,
-    output logic                    counter_full_o            // a counter of this column or of the chain before is full
+    output logic                    counter_full_o,           // a counter of this column or of the chain before is full
+    // chain of damaged words, with PARITY = 1
+    input  logic                    next_parity_error_i,
+    output logic                    parity_error_o            // a word that this column or the chain before has read is damaged
     // verilator lint_on UNUSEDSIGNAL
     // end of ports of a column
 );
@@ -111,7 +115,7 @@ module dtof_ez_pointer_column #(
   logic [NP-1:0] timestamp_t1;
   logic [POINTER_WIDTH-1:0] pointer;
   logic [CONFIDENCE_BITS-1:0] confidence;
-  logic unused_tag, unused_next_counter_full;
+  logic pointer_error, unused_tag, unused_next_counter_full;
 
   // This read-out has no counters.
   assign unused_next_counter_full = next_counter_full_i;
@@ -139,7 +143,8 @@ module dtof_ez_pointer_column #(
       .FRACTION_BITS   (FRACTION_BITS),
       .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
       .TAG_WIDTH       (0),
-      .PORTS           (POINTER_PORTS)
+      .PORTS           (POINTER_PORTS),
+      .PARITY          (PARITY)
   ) u_pointer_builder (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
@@ -163,7 +168,18 @@ module dtof_ez_pointer_column #(
       .start_pointer_i(MIDDLE),
       .start_tag_i    (1'b0),
       .pointer_o      (pointer),
-      .confidence_o   (confidence)
+      .confidence_o   (confidence),
+      .parity_error_o (pointer_error)
+  );
+
+  dtof_event_link #(
+      .PRESENT(PARITY)
+  ) u_parity_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .event_i      (pointer_error),
+      .next_column_i(next_parity_error_i),
+      .event_o      (parity_error_o)
   );
 
   dtof_result_register #(

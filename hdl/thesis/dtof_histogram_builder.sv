@@ -37,10 +37,11 @@ module dtof_histogram_builder #(
     parameter int COUNT_WIDTH = 10,      // bits of a count
     parameter int FREEZE = 1,            // 1: a pixel's first full bin ends its counting; 0: full bins stay full
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
+    parameter int PARITY = 0,            // 1: each word has a parity bit
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
 ) (
     input  logic                   clk_i,
-    input  logic                   rst_ni,          // for assertions only
+    input  logic                   rst_ni,          // for assertions and the check of parity only
     // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
@@ -58,7 +59,8 @@ module dtof_histogram_builder #(
     input  logic [  ROW_WIDTH-1:0] write_pixel_i,   // pixel of T5 or S1
     input  logic                   clear_all_i,     // clears all frozen flags, and all status bits with SIGNALLED_CLEAR = 1
     output logic [COUNT_WIDTH-1:0] count_s2_o,      // count at the address of S0
-    output logic                   full_t5_o        // a bin becomes full now; with FREEZE = 0 also if it was full before
+    output logic                   full_t5_o,       // a bin becomes full now; with FREEZE = 0 also if it was full before
+    output logic                   parity_error_o   // with PARITY = 1: the count that was read two clocks ago is damaged
 );
 
   localparam int BINS = 1 << BIN_WIDTH;
@@ -72,7 +74,7 @@ module dtof_histogram_builder #(
   logic [BIN_WIDTH-1:0] bin_t2_q, bin_t3_q, bin_t4_q, bin_t5_q;
   logic [COUNT_WIDTH-1:0] sram_data, valid_data, count_q, operand, incremented, written_q;
   logic [ADDR_WIDTH-1:0] read_addr, write_addr;
-  logic read_en, build_write, fills_t5, frozen, write_en;
+  logic read_en, build_write, fills_t5, frozen, write_en, ignored;
 
   assign read_en = scan_s0_i || hit_t2_q;
   assign read_addr = ADDR_WIDTH'({read_pixel_i, scan_s0_i ? scan_bin_s0_i : bin_t2_q});
@@ -81,10 +83,11 @@ module dtof_histogram_builder #(
   assign full_t5_o = fills_t5 && !frozen;
   assign write_addr = ADDR_WIDTH'({write_pixel_i, clear_s1_i ? clear_bin_s1_i : bin_t5_q});
 
-  dtof_sram #(
+  dtof_parity_sram #(
       .PORTS(2),
       .DEPTH(DEPTH),
-      .WIDTH(COUNT_WIDTH)
+      .WIDTH(COUNT_WIDTH),
+      .PARITY(PARITY)
   ) u_histogram_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -93,6 +96,8 @@ module dtof_histogram_builder #(
       .read_en_i   (read_en),
       .read_addr_i (read_addr),
       .read_data_o (sram_data),
+      .ignore_i    (ignored),
+      .error_o     (parity_error_o),
       .write_en_i  (write_en),
       .write_addr_i(write_addr),
       .write_data_i(clear_s1_i ? '0 : written_q)
@@ -113,11 +118,13 @@ module dtof_histogram_builder #(
           .valid_o     (valid)
       );
       assign valid_data = valid ? sram_data : '0;
+      assign ignored = !valid;
       assign write_en = build_write;
     end else begin : g_clear
       logic unused_clear_all;
       assign unused_clear_all = clear_all_i;
       assign valid_data = sram_data;
+      assign ignored = 1'b0;
       assign write_en = build_write || clear_s1_i;
     end
   endgenerate

@@ -39,6 +39,7 @@ module dtof_interframe_histogram_column #(
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int POINTER_PORTS = 2,     // ports of an SRAM whose words timestamps change
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
+    parameter int PARITY = 0,            // 1: each word of the SRAMs has a parity bit
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int RAW_HISTOGRAM = 0,     // 1: M4 may scan single bins, whose code and count are the result
     parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the column; timestamps are delayed as much
@@ -55,7 +56,7 @@ module dtof_interframe_histogram_column #(
     // ports of a column: written by scripts/generate.py from scripts/templates/column_ports.svh
     // verilator lint_off UNUSEDSIGNAL
     input  logic                    clk_i,
-    input  logic                    rst_ni,                   // for assertions and the chain of full counters only
+    input  logic                    rst_ni,                   // for assertions, the chains of events and the check of parity only
     // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
@@ -103,7 +104,10 @@ module dtof_interframe_histogram_column #(
     output logic [RESULT_WIDTH-1:0] result_o,                 // {code, fraction, confidence}
     // chain of full counters, in read-outs with a histogram
     input  logic                    next_counter_full_i,
-    output logic                    counter_full_o            // a counter of this column or of the chain before is full
+    output logic                    counter_full_o,           // a counter of this column or of the chain before is full
+    // chain of damaged words, with PARITY = 1
+    input  logic                    next_parity_error_i,
+    output logic                    parity_error_o            // a word that this column or the chain before has read is damaged
     // verilator lint_on UNUSEDSIGNAL
     // end of ports of a column
 );
@@ -111,7 +115,7 @@ module dtof_interframe_histogram_column #(
   localparam int PEAK_WIDTH = dtof_pkg::peak_width(READOUT, NP, NB);
 
   logic unused_detected, detected_t1;
-  logic full_t5;
+  logic full_t5, histogram_error, peak_error;
   logic [NP-1:0] timestamp_t1;
   logic [PEAK_WIDTH-1:0] peak_data, peak_q, new_peak;
   logic [BIN_WIDTH-1:0] scan_peak;
@@ -150,7 +154,8 @@ module dtof_interframe_histogram_column #(
       .SLOTS          (SLOTS),
       .COUNT_WIDTH    (COUNT_WIDTH),
       .WINDOW_CENTRED (WINDOW_CENTRED),
-      .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
+      .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+      .PARITY         (PARITY)
   ) u_peak_histogram (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
@@ -177,13 +182,15 @@ module dtof_interframe_histogram_column #(
       .count_o        (unused_count),
       .confidence_o   (confidence),
       .start_o        (start),
-      .full_t5_o      (full_t5)
+      .full_t5_o      (full_t5),
+      .parity_error_o (histogram_error)
   );
 
-  dtof_sram #(
+  dtof_parity_sram #(
       .PORTS(1),
       .DEPTH(PIXELS_PER_SRAM),
-      .WIDTH(PEAK_WIDTH)
+      .WIDTH(PEAK_WIDTH),
+      .PARITY(PARITY)
   ) u_peak_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -192,6 +199,8 @@ module dtof_interframe_histogram_column #(
       .read_en_i   (word_read_i),
       .read_addr_i (word_read_pixel_i),
       .read_data_o (peak_data),
+      .ignore_i    (first_pass_i),
+      .error_o     (peak_error),
       .write_en_i  (word_set_i),
       .write_addr_i(word_set_pixel_i),
       .write_data_i(new_peak)
@@ -222,12 +231,22 @@ module dtof_interframe_histogram_column #(
       : (RAW_HISTOGRAM != 0 && peak_code[NP]) ? {NP{1'b1}} : peak_code[NP-1:0];
   assign unused_peak_code = peak_code[NP];
 
-  dtof_full_counter_link u_full_counter_link (
+  dtof_event_link u_full_counter_link (
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
-      .full_i       (full_t5),
+      .event_i      (full_t5),
       .next_column_i(next_counter_full_i),
-      .full_o       (counter_full_o)
+      .event_o      (counter_full_o)
+  );
+
+  dtof_event_link #(
+      .PRESENT(PARITY)
+  ) u_parity_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .event_i      (histogram_error || peak_error),
+      .next_column_i(next_parity_error_i),
+      .event_o      (parity_error_o)
   );
 
   dtof_result_register #(

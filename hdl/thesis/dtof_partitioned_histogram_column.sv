@@ -37,6 +37,7 @@ module dtof_partitioned_histogram_column #(
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int POINTER_PORTS = 2,     // ports of an SRAM whose words timestamps change
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
+    parameter int PARITY = 0,            // 1: each word of the SRAMs has a parity bit
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int RAW_HISTOGRAM = 0,     // 1: M4 may scan single bins, whose code and count are the result
     parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the column; timestamps are delayed as much
@@ -53,7 +54,7 @@ module dtof_partitioned_histogram_column #(
     // ports of a column: written by scripts/generate.py from scripts/templates/column_ports.svh
     // verilator lint_off UNUSEDSIGNAL
     input  logic                    clk_i,
-    input  logic                    rst_ni,                   // for assertions and the chain of full counters only
+    input  logic                    rst_ni,                   // for assertions, the chains of events and the check of parity only
     // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
@@ -101,13 +102,16 @@ module dtof_partitioned_histogram_column #(
     output logic [RESULT_WIDTH-1:0] result_o,                 // {code, fraction, confidence}
     // chain of full counters, in read-outs with a histogram
     input  logic                    next_counter_full_i,
-    output logic                    counter_full_o            // a counter of this column or of the chain before is full
+    output logic                    counter_full_o,           // a counter of this column or of the chain before is full
+    // chain of damaged words, with PARITY = 1
+    input  logic                    next_parity_error_i,
+    output logic                    parity_error_o            // a word that this column or the chain before has read is damaged
     // verilator lint_on UNUSEDSIGNAL
     // end of ports of a column
 );
 
   logic unused_detected, detected_t1;
-  logic full_t5;
+  logic full_t5, histogram_error, best_error;
   logic [NP-1:0] timestamp_t1;
   logic [BIN_WIDTH-1:0] scan_peak;
   logic [NP-1:0] scan_code;
@@ -139,7 +143,8 @@ module dtof_partitioned_histogram_column #(
       .SLOTS          (SLOTS),
       .COUNT_WIDTH    (COUNT_WIDTH),
       .FREEZE         ((dtof_pkg::coarse_passes(READOUT, NP, NB) == 0) ? 1 : 0),
-      .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
+      .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+      .PARITY         (PARITY)
   ) u_peak_histogram (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
@@ -166,7 +171,8 @@ module dtof_partitioned_histogram_column #(
       .count_o        (scan_count),
       .confidence_o   (scan_confidence),
       .start_o        (unused_start),
-      .full_t5_o      (full_t5)
+      .full_t5_o      (full_t5),
+      .parity_error_o (histogram_error)
   );
 
   generate
@@ -200,10 +206,11 @@ module dtof_partitioned_histogram_column #(
         end
       end
 
-      dtof_sram #(
+      dtof_parity_sram #(
           .PORTS(1),
           .DEPTH(PIXELS_PER_SRAM),
-          .WIDTH(BEST_WIDTH)
+          .WIDTH(BEST_WIDTH),
+          .PARITY(PARITY)
       ) u_best_sram (
           .clk_i       (clk_i),
           .rst_ni      (rst_ni),
@@ -212,6 +219,8 @@ module dtof_partitioned_histogram_column #(
           .read_en_i   (word_read_i),
           .read_addr_i (word_read_pixel_i),
           .read_data_o (best_data),
+          .ignore_i    (first_pass_i),
+          .error_o     (best_error),
           .write_en_i  (word_set_i),
           .write_addr_i(word_set_pixel_i),
           .write_data_i(best)
@@ -220,18 +229,29 @@ module dtof_partitioned_histogram_column #(
       logic unused_count;
       assign unused_count = ^scan_count;
       assign sram_cfg_o = histogram_cfg;
+      assign best_error = 1'b0;
       assign scan_code = scan_peak;
       assign load_result = result_load_i;
       assign loaded_result = {scan_code, scan_confidence};
     end
   endgenerate
 
-  dtof_full_counter_link u_full_counter_link (
+  dtof_event_link u_full_counter_link (
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
-      .full_i       (full_t5),
+      .event_i      (full_t5),
       .next_column_i(next_counter_full_i),
-      .full_o       (counter_full_o)
+      .event_o      (counter_full_o)
+  );
+
+  dtof_event_link #(
+      .PRESENT(PARITY)
+  ) u_parity_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .event_i      (histogram_error || best_error),
+      .next_column_i(next_parity_error_i),
+      .event_o      (parity_error_o)
   );
 
   dtof_result_register #(

@@ -23,13 +23,14 @@ module dtof_peak_histogram #(
     parameter int FREEZE = 1,            // 1: a pixel's first full bin ends its counting; 0: full bins stay full
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
+    parameter int PARITY = 0,            // 1: each word of the SRAM has a parity bit
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),
     localparam int PEAK_WIDTH = dtof_pkg::peak_width(READOUT, NP, NB),
     localparam int PASS_WIDTH = dtof_pkg::index_width(dtof_pkg::coarse_passes(READOUT, NP, NB) + 1)
 ) (
     input  logic                   clk_i,
-    input  logic                   rst_ni,           // for assertions only
+    input  logic                   rst_ni,           // for assertions and the check of parity only
     // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
@@ -57,7 +58,8 @@ module dtof_peak_histogram #(
     output logic [COUNT_WIDTH-1:0] count_o,          // its count
     output logic [COUNT_WIDTH-1:0] confidence_o,     // height of the peak above the mean of the other bins
     output logic signed [NP+1:0]   start_o,          // code of bin 0 in the final pass, from peak_i
-    output logic                   full_t5_o         // a bin becomes full now; with FREEZE = 0 also if it was full before
+    output logic                   full_t5_o,        // a bin becomes full now; with FREEZE = 0 also if it was full before
+    output logic                   parity_error_o    // with PARITY = 1: the count that was read two clocks ago is damaged
 );
 
   logic keep;
@@ -85,7 +87,8 @@ module dtof_peak_histogram #(
       .SLOTS          (SLOTS),
       .COUNT_WIDTH    (COUNT_WIDTH),
       .FREEZE         (FREEZE),
-      .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
+      .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+      .PARITY         (PARITY)
   ) u_histogram_builder (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
@@ -103,7 +106,8 @@ module dtof_peak_histogram #(
       .write_pixel_i  (write_pixel_i),
       .clear_all_i    (clear_all_i),
       .count_s2_o     (count_s2),
-      .full_t5_o      (full_t5_o)
+      .full_t5_o      (full_t5_o),
+      .parity_error_o (parity_error_o)
   );
 
   dtof_peak_detector #(

@@ -21,6 +21,7 @@ module dtof_pointer_builder #(
     parameter int CONFIDENCE_WIDTH = 4,  // 0: no confidence
     parameter int TAG_WIDTH = 0,         // 0: no tag
     parameter int PORTS = 2,             // ports of the SRAM; 1 needs SLOTS >= 2
+    parameter int PARITY = 0,            // 1: each word has a parity bit
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int POINTER_WIDTH = NP + FRACTION_BITS,
     localparam int CONFIDENCE_BITS = dtof_pkg::max_of(CONFIDENCE_WIDTH, 1),
@@ -28,7 +29,7 @@ module dtof_pointer_builder #(
     localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, FRACTION_BITS)
 ) (
     input  logic                       clk_i,
-    input  logic                       rst_ni,           // for assertions only
+    input  logic                       rst_ni,           // for assertions and the check of parity only
     // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
@@ -54,7 +55,8 @@ module dtof_pointer_builder #(
     input  logic [       TAG_BITS-1:0] start_tag_i,
     // result: the word that was read last
     output logic [  POINTER_WIDTH-1:0] pointer_o,
-    output logic [CONFIDENCE_BITS-1:0] confidence_o
+    output logic [CONFIDENCE_BITS-1:0] confidence_o,
+    output logic                       parity_error_o    // with PARITY = 1: the word that was read two clocks ago is damaged
 );
 
   localparam int WORD_WIDTH = POINTER_WIDTH + CONFIDENCE_WIDTH + TAG_WIDTH;
@@ -68,7 +70,8 @@ module dtof_pointer_builder #(
       .WIDTH          (WORD_WIDTH),
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .SLOTS          (SLOTS),
-      .PORTS          (PORTS)
+      .PORTS          (PORTS),
+      .PARITY         (PARITY)
   ) u_word_builder (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
@@ -89,7 +92,8 @@ module dtof_pointer_builder #(
       .start_write_i  (start_write_i),
       .start_pixel_i  (start_pixel_i),
       .start_word_i   (start_word),
-      .word_o         (read_word)
+      .word_o         (read_word),
+      .parity_error_o (parity_error_o)
   );
 
   generate

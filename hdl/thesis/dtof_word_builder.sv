@@ -33,10 +33,11 @@ module dtof_word_builder #(
     parameter int PIXELS_PER_SRAM = 160,  // words
     parameter int SLOTS = 2,              // consecutive timestamps of a pixel
     parameter int PORTS = 2,              // ports of the SRAM; 1 needs SLOTS >= 2
+    parameter int PARITY = 0,             // 1: each word has a parity bit
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
 ) (
     input  logic                 clk_i,
-    input  logic                 rst_ni,           // for assertions only
+    input  logic                 rst_ni,           // for assertions and the check of parity only
     // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
@@ -59,7 +60,8 @@ module dtof_word_builder #(
     input  logic [ROW_WIDTH-1:0] start_pixel_i,
     input  logic [    WIDTH-1:0] start_word_i,
     // result
-    output logic [    WIDTH-1:0] word_o            // the word that was read last, two clocks after read_i
+    output logic [    WIDTH-1:0] word_o,           // the word that was read last, two clocks after read_i
+    output logic                 parity_error_o    // with PARITY = 1: the word of two clocks ago is damaged
 );
 
   `DTOF_REQUIRE(g_illegal_ports, PORTS == 2 || SLOTS >= 2,
@@ -71,10 +73,11 @@ module dtof_word_builder #(
   logic [WIDTH-1:0] sram_data, read_q, fetched, word_q;
   logic first_slot_t1_q, take_fetched, load_word, write_changed;
 
-  dtof_sram #(
+  dtof_parity_sram #(
       .PORTS(PORTS),
       .DEPTH(PIXELS_PER_SRAM),
-      .WIDTH(WIDTH)
+      .WIDTH(WIDTH),
+      .PARITY(PARITY)
   ) u_word_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -83,6 +86,8 @@ module dtof_word_builder #(
       .read_en_i   (read_i),
       .read_addr_i (read_pixel_i),
       .read_data_o (sram_data),
+      .ignore_i    (1'b0),
+      .error_o     (parity_error_o),
       .write_en_i  (write_changed || start_write_i),
       .write_addr_i(start_write_i ? start_pixel_i : write_pixel_i),
       .write_data_i(start_write_i ? start_word_i : word_q)

@@ -15,6 +15,7 @@
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int POINTER_PORTS = 2,     // ports of an SRAM whose words timestamps change
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit per address replaces clearing
+    parameter int PARITY = 0,            // 1: each word of the SRAMs has a parity bit
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int RAW_HISTOGRAM = 0,     // 1: M4 may scan single bins, whose code and count are the result
     parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the column; timestamps are delayed as much

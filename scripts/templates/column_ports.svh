@@ -9,7 +9,7 @@
 // says when the word is read. Assertions check the rules between these ports: hdl/thesis/dtof_column_rules.sv.
 
     input  logic                    clk_i,
-    input  logic                    rst_ni,                   // for assertions and the chain of full counters only
+    input  logic                    rst_ni,                   // for assertions, the chains of events and the check of parity only
     // side band of the SRAM macros; the technology folder defines its meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
@@ -57,4 +57,7 @@
     output logic [RESULT_WIDTH-1:0] result_o,                 // {code, fraction, confidence}
     // chain of full counters, in read-outs with a histogram
     input  logic                    next_counter_full_i,
-    output logic                    counter_full_o            // a counter of this column or of the chain before is full
+    output logic                    counter_full_o,           // a counter of this column or of the chain before is full
+    // chain of damaged words, with PARITY = 1
+    input  logic                    next_parity_error_i,
+    output logic                    parity_error_o            // a word that this column or the chain before has read is damaged

@@ -20,6 +20,7 @@ constexpr auto kParameters = std::to_array<RtlParameter>({
     {"WINDOW_CENTRED", true, false},
     {"POINTER_PORTS", true, false},
     {"SIGNALLED_CLEAR", true, false},
+    {"PARITY", true, true},
     {"TIME_GATE", true, true},
     {"RAW_HISTOGRAM", true, false},
     {"GROUP_SIZE", false, true},

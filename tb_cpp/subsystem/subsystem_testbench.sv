@@ -41,6 +41,8 @@ module subsystem_testbench #(
     parameter int POINTER_PORTS = 2,
     // one status bit an address instead of clearing
     parameter int SIGNALLED_CLEAR = 0,
+    // 1: each word of the SRAMs has a parity bit, which is checked at each read
+    parameter int PARITY = 0,
     // 1: only timestamps from `gate_begin_i` to below `gate_end_i` count
     parameter int TIME_GATE = 0,
     // 1: a frame may send histograms instead of results (`raw_i`)
@@ -224,6 +226,7 @@ module subsystem_testbench #(
       .WINDOW_CENTRED(WINDOW_CENTRED),
       .POINTER_PORTS(POINTER_PORTS),
       .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+      .PARITY(PARITY),
       .TIME_GATE(TIME_GATE),
       .RAW_HISTOGRAM(RAW_HISTOGRAM),
       .ACQ_WIDTH(ACQ_WIDTH),

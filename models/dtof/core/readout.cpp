@@ -181,6 +181,9 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (parameter == "SIGNALLED_CLEAR") {
     return 0;
   }
+  if (parameter == "PARITY") {
+    return 0;
+  }
   if (parameter == "TIME_GATE") {
     return 0;
   }
