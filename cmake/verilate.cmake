@@ -93,7 +93,7 @@ function(dtof_rtl_models library)
 endfunction()
 
 function(dtof_verilate name)
-  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;WAVEFORM;SUBSYSTEM" "READOUT;TARGET;CLOCK_WAITS;SOURCE_WAITS;BUFFER_LINES;RASTER_ORDER;AXI_LITE;PARITY;SELF_TEST;${DTOF_PARAMETERS}" ""
+  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;WAVEFORM;SUBSYSTEM" "READOUT;TARGET;CLOCK_WAITS;SOURCE_WAITS;BUFFER_LINES;RASTER_ORDER;AXI_LITE;SELF_TEST;${DTOF_PARAMETERS}" ""
     ${ARGN})
   if(P_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown ${P_UNPARSED_ARGUMENTS}")
@@ -110,7 +110,7 @@ function(dtof_verilate name)
     set(top subsystem_testbench)
     set(top_parameters ${DTOF_PARAMETERS_dtof_array} ${DTOF_PARAMETERS_dtof_pool_pointer_array} COARSE_SHARE TRACK_SHARE)
     set(overrides -GREADOUT=${DTOF_SUBSYSTEM_NUMBER_${P_READOUT}})
-    foreach(parameter CLOCK_WAITS SOURCE_WAITS BUFFER_LINES RASTER_ORDER AXI_LITE PARITY SELF_TEST)
+    foreach(parameter CLOCK_WAITS SOURCE_WAITS BUFFER_LINES RASTER_ORDER AXI_LITE SELF_TEST)
       if(DEFINED P_${parameter})
         list(APPEND overrides -G${parameter}=${P_${parameter}})
       endif()

@@ -85,7 +85,6 @@ module subsystem_testbench #(
     parameter SOURCE_WAITS = 1,
     parameter BUFFER_LINES = 0,  // 0: the subsystem's default
     parameter RASTER_ORDER = 0,
-    parameter PARITY = 0,
     parameter SELF_TEST = 0,
     localparam BUS_WIDTH = SRAM_NUM * NP > 512 ? SRAM_NUM * NP : 512
 ) (
@@ -210,7 +209,6 @@ module subsystem_testbench #(
       .SOURCE_WAITS(SOURCE_WAITS),
       .BUFFER_LINES(LINES),
       .RASTER_ORDER(RASTER_ORDER),
-      .PARITY(PARITY),
       .SELF_TEST(SELF_TEST),
       // parameters of dtof_subsystem: written by scripts/generate.py from readouts.toml
       .NP(NP),

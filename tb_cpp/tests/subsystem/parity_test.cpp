@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parity of the subsystem's own memories: bits that change in the line buffer and in the raster buffer are
-// reported, and nothing else is.
+// Parity of all memories of the subsystem and its array: a changed bit that changes a result is reported, and nothing
+// that did not happen is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "dtof.h"
 #include "tests/subsystem/subsystem_test_support.hpp"
@@ -26,17 +30,36 @@ class Parity : public Subsystem {
 
   static void flip(RtlSram& sram, int word, int bit) { sram.set_bit(word, bit, !sram.bit(word, bit)); }
 
+  FrameSettings settings(std::uint32_t acquisitions) {
+    return {.acquisitions = acquisitions,
+            .gate = {0, bench_.configuration().parameters.no_detection()},
+            .weak_below = 0,
+            .enabled = {},
+            .second_target = bench_.configuration().parameters.pool.second_target,
+            .raw = false};
+  }
+
   // A frame's settings, and its lines on their way.
   std::vector<Line> prepare(std::uint32_t acquisitions, CounterRandom& random) {
-    write_settings(bench_, {.acquisitions = acquisitions,
-                            .gate = {0, bench_.configuration().parameters.no_detection()},
-                            .weak_below = 0,
-                            .enabled = {},
-                            .second_target = bench_.configuration().parameters.pool.second_target,
-                            .raw = false});
+    write_settings(bench_, settings(acquisitions));
     std::vector<Line> lines = make_lines(bench_.configuration(), acquisitions, random);
     push_lines(bench_, lines);
     return lines;
+  }
+
+  // A frame of `lines` after a reset; `disturb` runs after its start.
+  template <typename Disturb>
+  void run(const std::vector<Line>& lines, Disturb disturb) {
+    bench_.reset();
+    write_settings(bench_, settings(3));
+    push_lines(bench_, lines);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    disturb();
+    if (bench_.sink().frames().size() == received_) {
+      bench_.wait_for_frames(1);
+    }
+    received_ = bench_.sink().frames().size();
+    bench_.clocks(2);  // from a damaged word to the register
   }
 
   void expect_errors(std::uint32_t number, std::uint32_t since_reset) {
@@ -48,6 +71,9 @@ class Parity : public Subsystem {
     bench_.set(DTOF_ERROR, 0xFFFFFFFF);
     bench_.set(DTOF_IRQ_STATUS, 0xFFFFFFFF);
   }
+
+  std::size_t received_ = 0;  // frames
+  std::uint64_t cycles_ = 0;  // of the last frame
 };
 
 INSTANTIATE_TEST_SUITE_P(All, Parity, testing::ValuesIn(compiled_subsystems()), subsystem_test_name);
@@ -66,9 +92,8 @@ TEST_P(Parity, IsQuietWhileNothingChanges) {
 }
 
 TEST_P(Parity, OfALineReportsEachWordOnce) {
-  if (!has_parity()) {
-    EXPECT_FALSE(sram("u_line_buffer").has_value()) << "SRAMs are writable where there is parity";
-    return;
+  if (!has_parity() || !sram("u_line_buffer")) {
+    return;  // no parity, or a buffer of registers
   }
   CounterRandom random = this->random(61);
   RtlSram lines = *sram("u_line_buffer");
@@ -135,6 +160,67 @@ TEST_P(Parity, OfAResultReportsEveryBit) {
     bench_.wait_for_frames(1);
     ++since_reset;
     expect_errors(1, since_reset);
+  }
+}
+
+// In the first frame after a reset no word of a memory has been written, and an abort leaves them as they are.
+TEST_P(Parity, IsQuietAfterAnAbort) {
+  CounterRandom random = this->random(63);
+  for (int round = 0; round < 20; ++round) {
+    if (round % 4 == 0) {
+      bench_.reset();
+    }
+    prepare(1 + random() % 4, random);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.clocks(1 + random() % 1500);
+    const bool ended = bench_.frames().back().cycles != 0;
+    if (!ended) {
+      bench_.set(DTOF_CONTROL, DTOF_CONTROL_ABORT_MASK | DTOF_CONTROL_FLUSH_MASK);
+    }
+    bench_.clocks(300);
+    EXPECT_EQ(bench_.get(DTOF_PARITY_ERRORS), 0U) << "round " << round;
+    EXPECT_EQ(bench_.get(DTOF_ERROR) & DTOF_ERROR_PARITY_MASK, 0U);
+    prepare(2, random);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.wait_for_frames(1);
+    EXPECT_EQ(bench_.get(DTOF_PARITY_ERRORS), 0U) << "round " << round;
+  }
+}
+
+// The same lines twice, the second time with a bit of the array's memory that changes in a random clock.
+TEST_P(Parity, OfAnArrayReportsEachBitThatChangesAResult) {
+  if (!has_parity()) {
+    return;
+  }
+  std::vector<RtlSram> srams = bench_.srams();
+  std::erase_if(srams, [](const RtlSram& sram) { return sram.path().find("u_array") == std::string::npos; });
+  ASSERT_FALSE(srams.empty());
+  CounterRandom random = this->random(64);
+  std::map<std::string, int> reported;  // by the instance's name
+  constexpr int kRounds = 80;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<Line> lines = make_lines(bench_.configuration(), 3, random);
+    RtlSram& sram = srams[static_cast<std::size_t>(round) % srams.size()];
+    const std::uint64_t before = random() % std::max<std::uint64_t>(cycles_, 1);
+    const int word = pick(random, sram.words());
+    const int bit = pick(random, sram.width());
+    run(lines, [] {});
+    cycles_ = bench_.frames().back().cycles;
+    EXPECT_EQ(bench_.get(DTOF_PARITY_ERRORS), 0U);
+    const std::vector<std::uint64_t> right = bench_.sink().frames().back();
+    run(lines, [&] {
+      bench_.clocks(before);
+      flip(sram, word, bit);
+    });
+    const std::uint32_t errors = bench_.get(DTOF_PARITY_ERRORS);
+    EXPECT_EQ(bench_.get(DTOF_ERROR), errors > 0 ? DTOF_ERROR_PARITY_MASK : 0U);
+    if (bench_.sink().frames().back() != right) {
+      EXPECT_GT(errors, 0U) << sram.path() << " word " << word << " bit " << bit << " clock " << before;
+    }
+    reported[sram.path().substr(sram.path().rfind(".u_", sram.path().rfind(".u_sram") - 1))] += errors > 0 ? 1 : 0;
+  }
+  for (const auto& [name, number] : reported) {
+    EXPECT_GT(number, 0) << "no changed bit of " << name << " was reported";
   }
 }
 
