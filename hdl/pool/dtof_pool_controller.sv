@@ -2,7 +2,7 @@
 // poolPointer: state machine of a frame and counter of acquisitions, once per array.
 //
 // IDLE -> RESET -> COARSE -> DECODE -> RESET -> TRACK -> CHOOSE -> POINT -> DECIDE -> IDLE
-//   RESET clears the pixels' words, one address per clock. COARSE, TRACK and POINT take timestamps. In DECODE, CHOOSE and DECIDE
+//   RESET clears the pixels' words, and in the first RESET those of the groups if FIRST_CLEAR_WORDS says so, one address per clock. COARSE, TRACK and POINT take timestamps. In DECODE, CHOOSE and DECIDE
 //   the engines work; in DECIDE they also send the results.
 // A stream phase takes acquisitions up to its end in the schedule (docs/reference/poolpointer.md, Parameters): coarse_end_i, track_end_i,
 // acq_num_i. All three are sampled with start_i in IDLE; start_i while busy is ignored. done_o is high in the frame's last clock.
@@ -14,7 +14,8 @@
 `default_nettype none
 
 module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
-    parameter int CLEAR_WORDS = 80,
+    parameter int CLEAR_WORDS = 80,  // pixels' words, before the track phase
+    parameter int FIRST_CLEAR_WORDS = 80,  // words before the coarse phase; more than CLEAR_WORDS: those of the groups, too
     parameter int ADDR_WIDTH = 7,
     parameter int ACQ_WIDTH = 16
 ) (
@@ -38,6 +39,7 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
     input  logic                  acq_done_i,
     input  logic                  stream_idle_i,
     // clear
+    input  logic                  keep_groups_i,  // no group's word is cleared; stable in the first RESET
     output logic                  clear_o,
     output logic [ADDR_WIDTH-1:0] clear_address_o,
     // engines
@@ -47,7 +49,8 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
     input  logic                  engine_done_i
 );
 
-  localparam logic [ADDR_WIDTH-1:0] LAST_ADDRESS = ADDR_WIDTH'(CLEAR_WORDS - 1);
+  localparam logic [ADDR_WIDTH-1:0] LAST_PIXELS = ADDR_WIDTH'(CLEAR_WORDS - 1);
+  localparam logic [ADDR_WIDTH-1:0] LAST_OF_ALL = ADDR_WIDTH'(FIRST_CLEAR_WORDS - 1);
 
   `DTOF_TYPE(dtof_pool_pkg, pool_state_t) state_d, state_q;
   logic stream_q, coarse_q, point_q, acq_done_q, start_q, done_q, decoded_q, entered_q, more_q, more_then_q;
@@ -56,7 +59,7 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic accept, cleared;
 
   assign accept = start_i && !busy_o;
-  assign cleared = clear_o && (address_q == LAST_ADDRESS);
+  assign cleared = clear_o && (address_q == ((decoded_q || keep_groups_i) ? LAST_PIXELS : LAST_OF_ALL));
 
   always_comb begin
     state_d = state_q;

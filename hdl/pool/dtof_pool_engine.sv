@@ -264,7 +264,12 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   endgenerate
   assign decide_scratch = SCRATCH_WIDTH'({decide_message, command_i.back ? winner : scratch[WINNER_WIDTH-1:0]});
 
-  logic damaged;
+  logic damaged, unwritten_q;
+
+  // The first column's words are read before they are written: what they have of a column to the left has no effect.
+  always_ff @(posedge clk_i) begin
+    unwritten_q <= (PARITY != 0) && command_i.choosing && !command_i.back && !command_i.beside.has_left;
+  end
 
   dtof_event_link #(
       .PRESENT(PARITY)
@@ -289,7 +294,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .read_en_i   (command_i.read_scratch),
       .read_addr_i (scratch_row_i),
       .read_data_o (scratch),
-      .ignore_i    (1'b0),
+      .ignore_i    (unwritten_q),
       .error_o     (damaged),
       .write_en_i  (command_i.write_scratch),
       .write_addr_i(scratch_row_i),

@@ -150,8 +150,11 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
   logic [ACQ_WIDTH-1:0] acq_num;
 
+  logic keep_groups;
+
   dtof_pool_controller #(
       .CLEAR_WORDS(PIXEL_WORDS),
+      .FIRST_CLEAR_WORDS((PARITY != 0) ? PIXEL_WORDS + (GROUPS + 1) / 2 : PIXEL_WORDS),
       .ADDR_WIDTH (ADDR_WIDTH),
       .ACQ_WIDTH  (ACQ_WIDTH)
   ) u_controller (
@@ -173,6 +176,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .acquisition_t1_o(acquisition_t1),
       .acq_done_i     (acq_done),
       .stream_idle_i  (stream_idle),
+      .keep_groups_i  (keep_groups),
       .clear_o        (clear),
       .clear_address_o(clear_address),
       .decode_o       (decode),
@@ -329,7 +333,8 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .hidden_o  (template_hidden)
   );
 
-  // The SRAMs hold groups' words of a last frame only if a frame has ended since reset.
+  // The SRAMs hold groups' words of a last frame only if a frame has ended since reset. With PARITY = 1 these words are cleared when
+  // nobody needs them, because an engine replaces a part of a word, and writes back the other parts as it has read them.
 
   generate
     if (PRIOR != 0) begin : g_prior
@@ -346,8 +351,10 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
           prior_q <= prior_i && ended_q;
         end
       end
+      assign keep_groups = ended_q;
     end else begin : g_no_prior
       assign prior_q = 1'b0;
+      assign keep_groups = 1'b0;
       logic unused_prior;
       assign unused_prior = prior_i;
     end
