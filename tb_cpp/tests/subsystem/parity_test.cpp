@@ -224,5 +224,39 @@ TEST_P(Parity, OfAnArrayReportsEachBitThatChangesAResult) {
   }
 }
 
+// A pointer that no timestamp moves is read once in each acquisition, and once for the result; while the array's clock is stopped, an
+// error counts once.
+TEST_P(Parity, OfAPointerCountsEachRead) {
+  const ReadoutParameters& parameters = bench_.configuration().parameters;
+  if (!has_parity() || parameters.readout != Readout::kEzPointer || !bench_.clock_waits()) {
+    return;
+  }
+  CounterRandom random = this->random(65);
+  constexpr std::uint32_t kAcquisitions = 5;
+  std::vector<Line> lines = make_lines(bench_.configuration(), kAcquisitions, random);
+  for (Line& line : lines) {
+    std::fill(line.begin(), line.end(), parameters.no_detection());
+  }
+  std::uint64_t rests = 0;
+  for (RtlSram& sram : bench_.srams()) {
+    if (sram.path().find("u_array") == std::string::npos) {
+      continue;
+    }
+    bench_.reset();
+    write_settings(bench_, settings(kAcquisitions));
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.clocks(100);  // the start values are written, and the array is ready for its first line
+    flip(sram, 1, sram.width() - 1);
+    bench_.source().gap_probability = 0.7;
+    push_lines(bench_, lines);
+    bench_.wait_for_frames(1);
+    bench_.clocks(2);
+    EXPECT_EQ(bench_.get(DTOF_PARITY_ERRORS), kAcquisitions + 1) << sram.path();
+    rests += bench_.rests();
+    bench_.source().gap_probability = 0.0;
+  }
+  EXPECT_GT(rests, 0U);
+}
+
 }  // namespace
 }  // namespace dtof
