@@ -56,7 +56,7 @@ typedef struct {
   bool has_amplitude;
   bool has_prior;
   bool has_raw_histogram;
-  bool has_parity; /* of the words in the subsystem's own memories */
+  bool has_parity; /* of the words in all SRAMs */
   bool has_self_test;
   bool clock_waits;  /* the array waits for a line that is late inside an acquisition */
   bool source_waits; /* false: acquisitions for which there is no room are dropped */

@@ -20,7 +20,7 @@ SUBSYSTEM = {
     "SOURCE_WAITS": "0: TDCs that cannot wait; where there is no room, whole acquisitions are dropped",
     "BUFFER_LINES": "lines that the line buffer holds",
     "RASTER_ORDER": "1: results come row by row, for a memory of all of them",
-    "PARITY": "1: words of the line buffer's SRAM and of the memory for RASTER_ORDER have parity bits",
+    "PARITY": "1: words of all SRAMs have parity bits",
     "SELF_TEST": "1: built-in self-test, which gives every column pseudo-random timestamps and compares a checksum",
 }
 BENCH = {"ACQUISITIONS": "of the example's frame"}

@@ -28,7 +28,7 @@ module dtof_first_photon_column #(
 
   logic [NP-1:0] timestamp_t1;
   logic [WORD_WIDTH-1:0] word_t1, next_t1, word;
-  logic found, hit, detected_t0, detected_t1;
+  logic found, hit, detected_t0, detected_t1, damaged;
 
   dtof_timestamp_input #(
       .NP       (NP),
@@ -52,7 +52,8 @@ module dtof_first_photon_column #(
       .WIDTH          (WORD_WIDTH),
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .SLOTS          (SLOTS),
-      .PORTS          (POINTER_PORTS)
+      .PORTS          (POINTER_PORTS),
+      .PARITY         (PARITY)
   ) u_word_builder (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
@@ -73,13 +74,24 @@ module dtof_first_photon_column #(
       .start_write_i  (word_set_i),
       .start_pixel_i  (word_set_pixel_i),
       .start_word_i   (WORD_WIDTH'(0)),
-      .word_o         (word)
+      .word_o         (word),
+      .parity_error_o (damaged)
   );
 
   // This column has no counters.
   logic unused_next_counter_full;
   assign unused_next_counter_full = next_counter_full_i;
   assign counter_full_o = 1'b0;
+
+  dtof_event_link #(
+      .PRESENT(PARITY)
+  ) u_parity_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .event_i      (damaged),
+      .next_column_i(next_parity_error_i),
+      .event_o      (parity_error_o)
+  );
 
   dtof_result_register #(
       .WIDTH(RESULT_WIDTH)
