@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parity of all memories of the subsystem and its array: a changed bit that changes a result is reported, and nothing
-// that did not happen is.
+// Parity of all memories of the subsystem and its array: a changed bit that changes a result is reported, and
+// nothing that did not happen is.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -163,7 +163,8 @@ TEST_P(Parity, OfAResultReportsEveryBit) {
   }
 }
 
-// In the first frame after a reset no word of a memory has been written, and an abort leaves them as they are.
+// In the first frame after a reset no word of a memory has been written, and an abort leaves them as they
+// are.
 TEST_P(Parity, IsQuietAfterAnAbort) {
   CounterRandom random = this->random(63);
   for (int round = 0; round < 20; ++round) {
@@ -217,15 +218,16 @@ TEST_P(Parity, OfAnArrayReportsEachBitThatChangesAResult) {
     if (bench_.sink().frames().back() != right) {
       EXPECT_GT(errors, 0U) << sram.path() << " word " << word << " bit " << bit << " clock " << before;
     }
-    reported[sram.path().substr(sram.path().rfind(".u_", sram.path().rfind(".u_sram") - 1))] += errors > 0 ? 1 : 0;
+    reported[sram.path().substr(sram.path().rfind(".u_", sram.path().rfind(".u_sram") - 1))] +=
+        errors > 0 ? 1 : 0;
   }
   for (const auto& [name, number] : reported) {
     EXPECT_GT(number, 0) << "no changed bit of " << name << " was reported";
   }
 }
 
-// A pointer that no timestamp moves is read once in each acquisition, and once for the result; while the array's clock is stopped, an
-// error counts once.
+// A pointer that no timestamp moves is read once in each acquisition, and once for the result; while the
+// array's clock is stopped, an error counts once.
 TEST_P(Parity, OfAPointerCountsEachRead) {
   const ReadoutParameters& parameters = bench_.configuration().parameters;
   if (!has_parity() || parameters.readout != Readout::kEzPointer || !bench_.clock_waits()) {
