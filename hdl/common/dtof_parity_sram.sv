@@ -50,7 +50,7 @@ module dtof_parity_sram #(
       .PORTS(PORTS),
       .DEPTH(DEPTH),
       .WIDTH(STORED_WIDTH)
-  ) u_sram (
+  ) u_words (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
       .cfg_i       (cfg_i),

@@ -199,7 +199,7 @@ module dtof_interframe_histogram_column #(
       .read_en_i   (word_read_i),
       .read_addr_i (word_read_pixel_i),
       .read_data_o (peak_data),
-      .ignore_i    (first_pass_i),
+      .ignore_i    (1'b0),
       .error_o     (peak_error),
       .write_en_i  (word_set_i),
       .write_addr_i(word_set_pixel_i),

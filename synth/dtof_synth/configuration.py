@@ -87,7 +87,7 @@ def memories(configuration: Configuration) -> dict[str, Size]:
         groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
         words = groups * (configuration["GROUP_SIZE"] // 2) + -(-groups // 2)
         pairs = -(-configuration.module_columns // 2)
-        return {"pixels and groups": Size(1, words, pairs * 2 * pool_word_width(configuration))}
+        return {"pixels and groups": Size(1, words, pairs * 2 * pool_word_width(configuration) + configuration["PARITY"])}
     sizes = {name: Size(*(readouts.evaluate(part, configuration.parameters) for part in size))
              for name, size in configuration.described.memories.items()}
     return {name: size for name, size in sizes.items() if size.words > 0}
@@ -115,7 +115,7 @@ def engine_memories(configuration: Configuration) -> dict[str, Size]:
     # Messages of choose with cell and offset chosen in the column to the left, or of decide with the position there.
     choose = 4 * configuration["LABELS"] + 7 + configuration["OFFSET_BITS"]
     decide = 2 * 2 + 16
-    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(choose, decide))}
+    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(choose, decide) + configuration["PARITY"])}
 
 
 def bits_per_pixel(configuration: Configuration) -> float:

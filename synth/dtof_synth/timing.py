@@ -70,7 +70,7 @@ def _readable(name: str, called: dict[str, str]) -> str:
     name = "/".join(called.get(part, part) for part in name.split("/"))
     name = re.sub(r"\\+\w+$", "", name)
     name = re.sub(r"^\S*u_(column|pair)/(g_column\[\d+\]\.u_column\.)?", "column ", name)
-    return re.sub(r"(\.(g_\w+|genblk\d+|u_macro))+$", "", name)
+    return re.sub(r"(\.(g_\w+|genblk\d+|u_macro|u_words))+$", "", name)
 
 
 def _slack_of(text: str) -> float:

@@ -104,7 +104,7 @@ class Names(unittest.TestCase):
                          "u_pixel_sequencer.first_slot_t1_o")
         self.assertEqual(timing._readable(r"g_column[9].g_ez_pointer.u_column/u_pointer_builder.word_q[12]\\DFF_X1", {}),
                          "column u_pointer_builder.word_q[12]")
-        self.assertEqual(timing._readable("g_column[0].genblk1.u_column/u_b.u_peak_sram.g_one_port.u_macro.g_160x6.u_macro", {}),
+        self.assertEqual(timing._readable("g_column[0].genblk1.u_column/u_b.u_peak_sram.u_words.g_one_port.u_macro.g_160x6.u_macro", {}),
                          "column u_b.u_peak_sram")
 
     def test_the_slowest_path_is_that_of_the_least_slack(self) -> None:

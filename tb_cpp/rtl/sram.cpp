@@ -15,10 +15,16 @@ static_assert(std::endian::native == std::endian::little, "a word's bits are cou
 
 constexpr std::string_view kMacro = ".u_macro";  // of memory/dtof_sram.sv, with one generate block around it
 
-/// The path of the dtof_sram that holds the macro `scope`.
+constexpr std::string_view kWords = ".u_words";  // the dtof_sram in a dtof_parity_sram
+
+/// The path of the dtof_sram that holds the macro `scope`, or of the dtof_parity_sram around it.
 std::string sram_path(std::string_view scope) {
   const std::string_view block = scope.substr(0, scope.size() - kMacro.size());
-  return std::string(block.substr(0, block.rfind('.')));
+  std::string_view path = block.substr(0, block.rfind('.'));
+  if (path.ends_with(kWords)) {
+    path.remove_suffix(kWords.size());
+  }
+  return std::string(path);
 }
 
 }  // namespace
