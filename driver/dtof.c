@@ -295,7 +295,7 @@ dtof_status dtof_self_test(const dtof_device *device, uint32_t seed, uint32_t ex
     uint32_t value;
   } writes[] = {{DTOF_SELF_TEST_SEED, seed},
                 {DTOF_SELF_TEST_EXPECTED, expected},
-                {DTOF_ERROR, DTOF_ERROR_SELF_TEST_MASK},
+                {DTOF_ERROR, DTOF_ERROR_SELF_TEST_MASK | (device->has_parity ? DTOF_ERROR_PARITY_MASK : 0U)},
                 {DTOF_CONTROL, DTOF_CONTROL_SELF_TEST_MASK}};
   for (size_t i = 0; status == DTOF_OK && i < sizeof writes / sizeof writes[0]; ++i) {
     status = write_register(device, writes[i].offset, writes[i].value);
@@ -303,10 +303,15 @@ dtof_status dtof_self_test(const dtof_device *device, uint32_t seed, uint32_t ex
   for (uint32_t i = 0; status == DTOF_OK && FIELD(state, DTOF_STATUS_BUSY) != 0; ++i) {
     status = i < most_reads ? read_register(device, DTOF_STATUS, &state) : DTOF_BUSY;
   }
-  if (status == DTOF_OK && FIELD(state, DTOF_STATUS_PASSED) == 0) {
+  if (status == DTOF_OK) {
     status = read_register(device, DTOF_ERROR, &errors);
-    if (status == DTOF_OK) {
-      status = FIELD(errors, DTOF_ERROR_SELF_TEST) != 0 ? DTOF_FAILED : DTOF_BUSY;
+  }
+  if (status == DTOF_OK) {
+    const bool damaged = device->has_parity && FIELD(errors, DTOF_ERROR_PARITY) != 0;
+    if (FIELD(errors, DTOF_ERROR_SELF_TEST) != 0 || damaged) {
+      status = DTOF_FAILED;
+    } else if (FIELD(state, DTOF_STATUS_PASSED) == 0) {
+      status = DTOF_BUSY;
     }
   }
   return status;

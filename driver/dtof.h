@@ -215,9 +215,10 @@ dtof_status dtof_recover(const dtof_device *device);
  * source and no sink are needed; lines of the source wait meanwhile. `seed` and `expected`, the checksum that
  * the models compute for these settings, are written to the device. The function reads STATUS until the
  * self-test ends, at most `most_reads` times. DTOF_OK if the self-test has passed, DTOF_FAILED if it has
- * failed, DTOF_ARGUMENT for a device without has_self_test. DTOF_BUSY if a frame or the self-test is under
- * way after the last read, or if there is no verdict: the sink has not taken all words, the settings are
- * illegal, or the self-test was aborted. ERROR.SELF_TEST is cleared before, and stays after a failure. */
+ * failed or, with has_parity, if a word had a wrong parity. DTOF_ARGUMENT for a device without has_self_test.
+ * DTOF_BUSY if a frame or the self-test is under way after the last read, or if there is no verdict: the sink
+ * has not taken all words, the settings are illegal, or the self-test was aborted. ERROR.SELF_TEST and
+ * ERROR.PARITY are cleared before, and stay after a failure. */
 dtof_status dtof_self_test(const dtof_device *device, uint32_t seed, uint32_t expected, uint32_t most_reads);
 
 /* Reads the state of the device. */

@@ -39,7 +39,7 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
     input  logic                  acq_done_i,
     input  logic                  stream_idle_i,
     // clear
-    input  logic                  keep_groups_i,  // no group's word is cleared; stable in the first RESET
+    input  logic                  keep_groups_i,  // RESET takes as long, and does not clear the groups' words
     output logic                  clear_o,
     output logic [ADDR_WIDTH-1:0] clear_address_o,
     // engines
@@ -56,10 +56,13 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic stream_q, coarse_q, point_q, acq_done_q, start_q, done_q, decoded_q, entered_q, more_q, more_then_q;
   logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, acquisition_then, acquisition_q, phase_end;
   logic [ADDR_WIDTH-1:0] address_q;
-  logic accept, cleared;
+  logic accept, clears, cleared, groups;
 
   assign accept = start_i && !busy_o;
-  assign cleared = clear_o && (address_q == ((decoded_q || keep_groups_i) ? LAST_PIXELS : LAST_OF_ALL));
+  // One clock after the state, because only then all engines' words are 0.
+  assign clears = (state_q == dtof_pool_pkg::POOL_STATE_RESET) && !entered_q;
+  assign cleared = clears && (address_q == (decoded_q ? LAST_PIXELS : LAST_OF_ALL));
+  assign groups = (FIRST_CLEAR_WORDS > CLEAR_WORDS) && (address_q > LAST_PIXELS);
 
   always_comb begin
     state_d = state_q;
@@ -163,7 +166,7 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
       end
       more_q <= acq_done_i ? more_then_q : acq_done_q ? more_q : (acquisition_q < phase_end);
       more_then_q <= (acquisition_then < phase_end);
-      address_q <= (clear_o && !cleared) ? address_q + 1'b1 : '0;
+      address_q <= (clears && !cleared) ? address_q + 1'b1 : '0;
     end
   end
 
@@ -180,8 +183,7 @@ module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign point_o = point_q;
   assign more_o = more_q;
   assign acquisition_t1_o = dtof_pkg::POOL_ACQUISITION_WIDTH'(acquisition_q);
-  // One clock after the state, because only then all engines' words are 0.
-  assign clear_o = (state_q == dtof_pool_pkg::POOL_STATE_RESET) && !entered_q;
+  assign clear_o = clears && !(groups && keep_groups_i);
   assign clear_address_o = address_q;
   assign decode_o = entered_q && (state_q == dtof_pool_pkg::POOL_STATE_DECODE);
   assign choose_o = entered_q && (state_q == dtof_pool_pkg::POOL_STATE_CHOOSE);

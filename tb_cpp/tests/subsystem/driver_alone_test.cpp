@@ -50,6 +50,31 @@ TEST(DriverAlone, ReportsWhatItDoesNotFind) {
   EXPECT_EQ(dtof_probe(&device, bus), DTOF_NOT_FOUND);
 }
 
+// A self-test that passes, during which a word had a wrong parity.
+TEST(DriverAlone, FailsASelfTestWithDamagedWords) {
+  Memory memory;
+  memory.values[DTOF_STATUS] = DTOF_STATUS_PASSED_MASK;
+  const dtof_bus bus = {&memory, memory_read, [](void* context, std::uint32_t offset, std::uint32_t value) {
+                          auto& values = static_cast<Memory*>(context)->values;
+                          if (offset == DTOF_ERROR) {
+                            values[offset] &= ~value;
+                          } else if (offset == DTOF_CONTROL) {
+                            values[DTOF_ERROR] |= DTOF_ERROR_PARITY_MASK;
+                          }
+                          return true;
+                        }};
+  for (const std::uint32_t before : {0U, DTOF_ERROR_SELF_TEST_MASK | DTOF_ERROR_PARITY_MASK}) {
+    for (const bool has_parity : {false, true}) {
+      memory.values[DTOF_READOUT] =
+          DTOF_READOUT_SELF_TEST_MASK | (has_parity ? DTOF_READOUT_PARITY_MASK : 0U);
+      memory.values[DTOF_ERROR] = before;
+      dtof_device device{};
+      ASSERT_EQ(dtof_probe(&device, bus), DTOF_OK);
+      EXPECT_EQ(dtof_self_test(&device, 1, 2, 10), has_parity ? DTOF_FAILED : DTOF_OK);
+    }
+  }
+}
+
 TEST(DriverAlone, TakesTheScheduleFromTheRegistersAtAnyNumberOfAcquisitions) {
   for (const Readout readout : {Readout::kPoolPointer, Readout::kPoolPointerLean}) {
     const PoolPointerParameters pool = PoolPointerParameters::defaults(readout);
