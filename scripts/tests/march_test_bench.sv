@@ -200,6 +200,7 @@ module march_array_bench;
       .done_o(),
       .state_o(),
       .error_o(),
+      .parity_error_o(),
       .counter_full_o(),
       .tdc_valid_i(1'b0),
       .tdc_ready_o(),

@@ -16,6 +16,7 @@ module dtof_array_bench #(
     parameter int WINDOW_CENTRED = 0,
     parameter int POINTER_PORTS = 2,
     parameter int SIGNALLED_CLEAR = 0,
+    parameter int PARITY = 0,
     parameter int TIME_GATE = 0,
     parameter int RAW_HISTOGRAM = 0,  // the vectors have results only
     parameter int ACQ_WIDTH = 16,
@@ -38,7 +39,7 @@ module dtof_array_bench #(
   logic clk, rst_n, start, tdc_valid, result_tready;
   logic [ACQ_WIDTH-1:0] acq_num, gate_begin, gate_end;
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
-  logic [TDATA_WIDTH+12:0] rtl, netlist;  // in the order of stream_bench
+  logic [TDATA_WIDTH+13:0] rtl, netlist;  // in the order of stream_bench
 
 `ifndef NETLIST_ALONE
   dtof_array #(
@@ -56,6 +57,7 @@ module dtof_array_bench #(
       .WINDOW_CENTRED  (WINDOW_CENTRED),
       .POINTER_PORTS   (POINTER_PORTS),
       .SIGNALLED_CLEAR (SIGNALLED_CLEAR),
+      .PARITY          (PARITY),
       .TIME_GATE       (TIME_GATE),
       .RAW_HISTOGRAM   (RAW_HISTOGRAM),
       .ACQ_WIDTH       (ACQ_WIDTH),
@@ -75,6 +77,7 @@ module dtof_array_bench #(
       .done_o         (rtl[TDATA_WIDTH+6]),
       .state_o        (rtl[TDATA_WIDTH+3+:3]),
       .error_o        (rtl[TDATA_WIDTH+9+:3]),
+      .parity_error_o (rtl[TDATA_WIDTH+13]),
       .counter_full_o (rtl[TDATA_WIDTH+12]),
       .sram_cfg_o     (rtl[TDATA_WIDTH+8+:1]),
       .tdc_valid_i    (tdc_valid),
@@ -103,6 +106,7 @@ module dtof_array_bench #(
       .done_o         (netlist[TDATA_WIDTH+6]),
       .state_o        (netlist[TDATA_WIDTH+3+:3]),
       .error_o        (netlist[TDATA_WIDTH+9+:3]),
+      .parity_error_o (netlist[TDATA_WIDTH+13]),
       .counter_full_o (netlist[TDATA_WIDTH+12]),
       .sram_cfg_o     (netlist[TDATA_WIDTH+8+:1]),
       .tdc_valid_i    (tdc_valid),

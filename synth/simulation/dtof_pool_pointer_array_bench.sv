@@ -15,8 +15,10 @@ module dtof_pool_pointer_array_bench #(
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     parameter int CELL_SHIFT = 9,
+    parameter int PARITY = 0,
     parameter int TIME_GATE = 0,  // the vectors have no gate
     parameter int SECOND_TARGET = 0,  // the vectors have one target
+    parameter int AMPLITUDE = 0,
     parameter int PRIOR = 0,
     parameter int ENGINE_COLUMNS = 2,
     parameter int ACQ_WIDTH = 16,
@@ -27,7 +29,8 @@ module dtof_pool_pointer_array_bench #(
 );
 
   localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH);
-  localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS_PER_SRAM) + 16
+  localparam int LIGHT_WIDTH = (AMPLITUDE != 0) ? dtof_pkg::POOL_BACKGROUND_WIDTH + dtof_pkg::pool_amplitude_width(ADVANTAGE_WIDTH) : 0;
+  localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS_PER_SRAM) + LIGHT_WIDTH + 16
       + CONFIDENCE_WIDTH;
 
 `ifdef NETLIST
@@ -39,7 +42,7 @@ module dtof_pool_pointer_array_bench #(
   logic clk, rst_n, start, tdc_valid, result_tready;
   logic [ACQ_WIDTH-1:0] acq_num, coarse_end, track_end, settings;
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
-  logic [TDATA_WIDTH+12:0] rtl, netlist;  // in the order of stream_bench
+  logic [TDATA_WIDTH+13:0] rtl, netlist;  // in the order of stream_bench
 
   // TEMPLATE is stable while an array is busy. In frames with a template entry i is 255 >> (i / 2).
   logic with_template_q;
@@ -74,8 +77,10 @@ module dtof_pool_pointer_array_bench #(
       .POINTER_SHIFT    (POINTER_SHIFT),
       .RIVAL_MOVES      (RIVAL_MOVES),
       .CELL_SHIFT       (CELL_SHIFT),
+      .PARITY           (PARITY),
       .TIME_GATE        (TIME_GATE),
       .SECOND_TARGET    (SECOND_TARGET),
+      .AMPLITUDE        (AMPLITUDE),
       .PRIOR            (PRIOR),
       .ENGINE_COLUMNS   (ENGINE_COLUMNS),
       .ACQ_WIDTH        (ACQ_WIDTH),
@@ -97,6 +102,7 @@ module dtof_pool_pointer_array_bench #(
       .done_o         (rtl[TDATA_WIDTH+6]),
       .state_o        (rtl[TDATA_WIDTH+3+:3]),
       .error_o        (rtl[TDATA_WIDTH+9+:3]),
+      .parity_error_o (rtl[TDATA_WIDTH+13]),
       .sram_cfg_o     (rtl[TDATA_WIDTH+8+:1]),
       .tdc_valid_i    (tdc_valid),
       .tdc_ready_o    (rtl[TDATA_WIDTH+2]),
@@ -127,6 +133,7 @@ module dtof_pool_pointer_array_bench #(
       .done_o         (netlist[TDATA_WIDTH+6]),
       .state_o        (netlist[TDATA_WIDTH+3+:3]),
       .error_o        (netlist[TDATA_WIDTH+9+:3]),
+      .parity_error_o (netlist[TDATA_WIDTH+13]),
       .sram_cfg_o     (netlist[TDATA_WIDTH+8+:1]),
       .tdc_valid_i    (tdc_valid),
       .tdc_ready_o    (netlist[TDATA_WIDTH+2]),
@@ -152,6 +159,7 @@ module dtof_pool_pointer_array_bench #(
       .ACQ_WIDTH       (ACQ_WIDTH),
       .FRACTION_BITS   (16 - NP),
       .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .LIGHT_WIDTH     (LIGHT_WIDTH),
       .TURNS           ((SRAM_NUM < ENGINE_COLUMNS) ? SRAM_NUM : ENGINE_COLUMNS),
       .COMPARE         (COMPARE),
       .FRAMES          (FRAMES),

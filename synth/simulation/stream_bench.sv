@@ -16,6 +16,7 @@ module stream_bench #(
     parameter int ACQ_WIDTH = 16,
     parameter int FRACTION_BITS = 0,     // fractional bits of a result
     parameter int CONFIDENCE_WIDTH = 4,  // bits of a result's confidence
+    parameter int LIGHT_WIDTH = 0,  // bits of amplitude and ambient above the code, which are in no vector: RTL and netlist have the same
     parameter int TURNS = 1,  // number of turns in which the engines send their columns; 1 without engines
     parameter int COMPARE = 0,
     parameter int FRAMES = 1,            // lines of frames.txt
@@ -23,9 +24,9 @@ module stream_bench #(
     parameter int SEED = 1,
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int RESULT_WIDTH = NP + FRACTION_BITS + CONFIDENCE_WIDTH,
+    localparam int RESULT_WIDTH = LIGHT_WIDTH + NP + FRACTION_BITS + CONFIDENCE_WIDTH,
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH,
-    localparam int OUTPUT_WIDTH = 13 + TDATA_WIDTH
+    localparam int OUTPUT_WIDTH = 14 + TDATA_WIDTH
 ) (
     output logic                   clk_o,
     output logic                   rst_no,
@@ -37,7 +38,7 @@ module stream_bench #(
     output logic                   tdc_valid_o,
     output logic [SRAM_NUM*NP-1:0] tdc_timestamp_o,
     output logic                   result_tready_o,
-    // {counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid, tlast, tdata}
+    // {parity_error, counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid, tlast, tdata}
     input  logic [OUTPUT_WIDTH-1:0] rtl_i,
     input  logic [OUTPUT_WIDTH-1:0] netlist_i
 );
@@ -61,13 +62,13 @@ module stream_bench #(
   // Outputs of the RTL and of the netlist.
 
   logic [dtof_pkg::ERROR_WIDTH-1:0] error, wanted_error;
-  logic unused_counter_full, sram_cfg, busy, done, tdc_ready, tvalid, tlast;
+  logic unused_parity_error, unused_counter_full, sram_cfg, busy, done, tdc_ready, tvalid, tlast;
   logic [2:0] state;
   logic [TDATA_WIDTH-1:0] tdata;
   logic netlist_tvalid, netlist_tlast;
   logic [TDATA_WIDTH-1:0] netlist_tdata;
 
-  assign {unused_counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid, tlast, tdata} = rtl_i;
+  assign {unused_parity_error, unused_counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid, tlast, tdata} = rtl_i;
   assign {netlist_tvalid, netlist_tlast, netlist_tdata} = netlist_i[TDATA_WIDTH+1:0];
 
   // Random numbers (xorshift), the same in every simulator.
@@ -133,7 +134,7 @@ module stream_bench #(
   task check_unknown;
     begin
       if ((^rtl_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]) === 1'bx) begin
-        $display("RTL: a control output is X: {counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid} = %b",
+        $display("RTL: a control output is X: {parity_error, counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid} = %b",
                  rtl_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]);
         fail;
       end
@@ -143,7 +144,7 @@ module stream_bench #(
       end
       if (COMPARE != 0) begin
         if ((^netlist_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]) === 1'bx) begin
-          $display("netlist: a control output is X: {counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid} = %b",
+          $display("netlist: a control output is X: {parity_error, counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid} = %b",
                    netlist_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]);
           fail;
         end
@@ -158,6 +159,7 @@ module stream_bench #(
   task check_netlist;
     begin
       if (COMPARE != 0 && rtl_i !== netlist_i) begin
+        compare("parity_error_o", TDATA_WIDTH + 13, 1);
         compare("counter_full_o", TDATA_WIDTH + 12, 1);
         compare("error_o", TDATA_WIDTH + 9, 3);
         compare("sram_cfg_o", TDATA_WIDTH + 8, 1);
@@ -196,7 +198,7 @@ module stream_bench #(
 
   task check_result;
     logic [47:0] model;
-    logic [TDATA_WIDTH-1:0] wanted;
+    logic [TDATA_WIDTH-1:0] wanted, light;
     begin
       if (result == RESULTS) begin
         $display("a result too many: %h", tdata);
@@ -206,6 +208,8 @@ module stream_bench #(
         wanted = (TDATA_WIDTH'(column) << (ROW_WIDTH + RESULT_WIDTH)) | (TDATA_WIDTH'(row) << RESULT_WIDTH)
             | (TDATA_WIDTH'(model[47:32]) << (FRACTION_BITS + CONFIDENCE_WIDTH))
             | (TDATA_WIDTH'(model[31:16]) << CONFIDENCE_WIDTH) | TDATA_WIDTH'(model[15:0]);
+        light = ((TDATA_WIDTH'(1) << LIGHT_WIDTH) - TDATA_WIDTH'(1)) << (RESULT_WIDTH - LIGHT_WIDTH);
+        wanted = wanted | (tdata & light);
         if (tdata !== wanted || tlast !== (result == RESULTS - 1)) begin
           $display("result_tdata_o: %h, tlast %b; the model: %h, tlast %b (column %0d, row %0d)", tdata, tlast,
                    wanted, result == RESULTS - 1, column, row);

@@ -35,6 +35,16 @@ RtlRunOptions disturbed(CounterRandom& random, std::uint32_t acquisitions) {
   return options;
 }
 
+/// Clocks in which poolPointer with parity clears the words of its groups, two in each.
+std::uint64_t clocks_of_parity(const RtlConfiguration& configuration) {
+  if (!configuration.parity || !is_pool_readout(configuration.parameters.readout)) {
+    return 0;
+  }
+  const int group = configuration.parameters.pool.group_size;
+  const int groups = (configuration.pixels_per_sram + group - 1) / group;
+  return static_cast<std::uint64_t>((groups + 1) / 2);
+}
+
 /// Whether a dark frame takes the clocks that are predicted.
 std::string clock_difference(RtlReadout& rtl, const std::string& reproduce) {
   const RtlConfiguration& configuration = rtl.configuration();
@@ -48,7 +58,8 @@ std::string clock_difference(RtlReadout& rtl, const std::string& reproduce) {
   const std::uint64_t clocks = rtl.run(columns, kAcquisitions).statistics.cycles;
   const std::uint64_t predicted =
       predicted_frame_clocks(configuration.parameters, configuration.pixels_per_sram, configuration.sram_num,
-                             kAcquisitions, configuration.signalled_clear);
+                             kAcquisitions, configuration.signalled_clear) +
+      clocks_of_parity(configuration);
   return clocks == predicted
              ? ""
              : fmt::format(

@@ -110,6 +110,7 @@ RtlConfiguration drawn_configuration(std::uint64_t seed, std::uint32_t index) {
   configuration.pixels_per_sram = draw.from(
       1, is_pool_readout(readout) ? kMostPoolRows : std::min(kMostRows, kMostBins / bins(parameters)));
   configuration.sram_num = draw.from(1, 9);
+  configuration.parity = draw.coin();
   return configuration;
 }
 

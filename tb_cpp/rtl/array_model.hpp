@@ -36,6 +36,7 @@ class ArrayModel {
     const std::uint8_t* state;
     const std::uint8_t* error;         ///< kRtlUnderrun and so on
     const std::uint8_t* counter_full;  ///< dtof_array only, else null
+    const std::uint8_t* parity_error;
     const std::uint8_t* tdc_ready;
     const std::uint8_t* result_valid;
     const std::uint8_t* result_last;

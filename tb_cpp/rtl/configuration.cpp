@@ -7,6 +7,9 @@ namespace dtof {
 
 std::string RtlConfiguration::to_string() const {
   std::string out = parameters.to_string();
+  if (parity) {
+    out += " PARITY=1";
+  }
   if (is_pool_readout(parameters.readout)) {
     return out + fmt::format(" PIXELS_PER_SRAM={} SRAM_NUM={}", pixels_per_sram, sram_num);
   }

@@ -26,6 +26,7 @@ struct RtlConfiguration {
   int sram_num = 8;                  ///< SRAM_NUM, columns
   int pointer_ports = 2;             ///< POINTER_PORTS, 1 or 2 (pointer read-outs)
   bool signalled_clear = false;      ///< SIGNALLED_CLEAR (histogram read-outs)
+  bool parity = false;               ///< PARITY: an array that finds a damaged word ends the simulation
   bool raw_histogram = false;        ///< RAW_HISTOGRAM: a frame may send histograms instead of results
   bool records_waveform = true;      ///< not a parameter: the model can write waveforms
 

@@ -117,7 +117,8 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
   std::optional<RtlConfiguration> best;
   const auto cost = [columns](const RtlConfiguration& candidate) {
     const int groups = (columns + candidate.sram_num - 1) / candidate.sram_num;
-    const bool variant = candidate.pointer_ports != 2 || candidate.signalled_clear || candidate.raw_histogram;
+    const bool variant = candidate.pointer_ports != 2 || candidate.signalled_clear || candidate.parity ||
+                         candidate.raw_histogram;
     return std::tuple(variant, candidate.pixels_per_sram, groups * (candidate.sram_num + kControlColumns));
   };
   for (const auto& [text, entry] : registry()) {

@@ -299,6 +299,7 @@ class RtlReadout::Simulation {
     const bool busy = cycle_ > 0;
     require((*ports_.busy != 0) == busy, busy ? "busy_o fell before done" : "busy before start");
     require(busy || *ports_.tdc_ready == 0, "tdc_ready_o is high in IDLE");
+    require(*ports_.parity_error == 0, "a word with a wrong parity was read");
     if (ports_.counter_full != nullptr && *ports_.counter_full != 0) {
       ++frame_.counter_full_clocks;
     }

@@ -41,6 +41,7 @@ constexpr auto kOwn = std::to_array<OwnParameter>({
     own<&C::sram_num>("SRAM_NUM"),
     own<&C::pointer_ports>("POINTER_PORTS"),
     own<&C::signalled_clear>("SIGNALLED_CLEAR"),
+    own<&C::parity>("PARITY"),
     own<&C::raw_histogram>("RAW_HISTOGRAM"),
     {"TIME_GATE", [](const C& c) { return c.parameters.time_gate ? 1 : 0; },
      [](C& c, int value) { c.parameters.time_gate = value != 0 ? std::optional(CodeGate{}) : std::nullopt; }},

@@ -69,6 +69,7 @@ class VerilatedArray : public ArrayModel {
             .state = &model_.state_o,
             .error = &model_.error_o,
             .counter_full = counter_full,
+            .parity_error = &model_.parity_error_o,
             .tdc_ready = &model_.tdc_ready_o,
             .result_valid = &model_.result_tvalid_o,
             .result_last = &model_.result_tlast_o,
