@@ -236,10 +236,14 @@ std::string bash_completion(const CLI::App& app) {
 std::string man_page(const CLI::App& app, const std::string& version) {
   const std::vector<CommandText> table = command_table(app);
   const CommandText& program = table.front();
+  std::string_view description = program.description;
+  if (const std::string name = program.name + ": "; description.starts_with(name)) {
+    description.remove_prefix(name.size());  // NAME has it already
+  }
   std::string page = fmt::format(
       ".TH {} 1 \"\" \"{} {}\" \"User commands\"\n.ad l\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n\\fB{}\\fR "
       "{}[\\fIOPTIONS\\fR]\n.SH OPTIONS\n{}",
-      upper(program.name), program.name, version, troff(program.name), troff(program.description),
+      upper(program.name), program.name, version, troff(program.name), troff(description),
       troff(program.name), table.size() > 1 ? "\\fICOMMAND\\fR " : "", man_options(program));
   page += table.size() > 1 ? ".SH COMMANDS\n" : "";
   for (std::size_t i = 1; i < table.size(); ++i) {

@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Transient cubes: NPY arrays, and the scenes that they become.
+// Transient cubes: NPY, NPZ, HDF5 and MATLAB 7.3 as their reader reads them, and the scenes that they become.
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "dtof/core/error.hpp"
-#include "dtof/io/npy.hpp"
+#include "dtof/recording/transient_file.hpp"
 #include "dtof/scene/scene.hpp"
 #include "fuzz/input_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const dtof::NpyArray array = dtof::read_npy(dtof::fuzz::input_file(data, size));
-    const dtof::TargetMap scene =
-        dtof::scene_from_transient_cube(array.shape, array.values, {.bin_width_s = 1e-10}, 2e-9, 3, 2);
+    const auto [array, bin_width_s, start_s] =
+        dtof::read_transient_file(dtof::fuzz::input_file(data, size).string());
+    std::size_t elements = 1;
+    for (const std::size_t extent : array.shape) {
+      elements *= extent;
+    }
+    if (elements != array.values.size() || elements == 0) {
+      std::abort();
+    }
+    const dtof::TargetMap scene = dtof::scene_from_transient_cube(
+        array.shape, array.values,
+        {.bin_width_s = bin_width_s.value_or(1e-10), .start_s = start_s.value_or(0.0)}, 2e-9, 3, 2);
     for (int column = 0; column < scene.columns(); ++column) {
       if (scene.returns_signal(column, 0)) {
         (void)scene.cube()->first_return(column, 0, 2e-9);

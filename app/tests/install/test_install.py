@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The installed programs: they start from their new place, and man pages and completions lie where man and bash look for them.
+"""The installed programs: they start from their new place, and man and bash read the pages and completions that lie beside them.
 CTest gives the build folder (DTOF_BUILD)."""
 
 import os
+import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -42,12 +44,37 @@ class Install(unittest.TestCase):
             page = (self.prefix / "share/man/man1" / f"{program}.1").read_text(encoding="utf-8")
             self.assertEqual(page, output(BUILD / "bin" / program, "--man"))
 
-    def test_bash_completes_a_command(self) -> None:
-        for program, word, completed in (("dtof", "repl", "replay"), ("dtof-study", "wal", "walk")):
+    def test_the_man_page_is_rendered_with_every_option(self) -> None:
+        if shutil.which("groff") is None:
+            self.skipTest("groff is absent")
+        for program in PROGRAMS:
+            page = self.prefix / "share/man/man1" / f"{program}.1"
+            # A long option cannot be broken over two lines; every other warning is a fault of the page.
+            done = subprocess.run(["groff", "-man", "-Tutf8", "-P-c", "-ww", "-Wbreak", page], capture_output=True, text=True, check=True)
+            self.assertEqual(done.stderr, "")
+            shown = re.sub(".\b", "", done.stdout)  # bold letters are struck twice
+            self.assertRegex(shown, rf"(?m)^ +{program} . (?!{program}:)[A-Za-z]")
+            options = set(re.findall(r"--[a-z][a-z0-9-]+", output(BUILD / "bin" / program, "--help")))
+            self.assertGreater(len(options), 3)
+            self.assertEqual({option for option in options if option not in shown}, set())
+
+    def completed(self, program: str, *words: str) -> list[str]:
+        script = self.prefix / "share/bash-completion/completions" / program
+        function = program.replace("-", "_")
+        return output("bash", "-c", f"source '{script}'; COMP_WORDS=({program} {' '.join(words)}); COMP_CWORD={len(words)}; _{function}; "
+                      "echo \"${COMPREPLY[@]}\"").split()
+
+    def test_bash_completes_a_command_an_option_and_a_value(self) -> None:
+        for program, words, whole in (("dtof", ["repl"], "replay"), ("dtof", ["frame", "--eng"], "--engine"),
+                                      ("dtof", ["frame", "--engine", "mo"], "model"), ("dtof-study", ["wal"], "walk"),
+                                      ("dtof-study", ["accuracy", "--sen"], "--sensor"),
+                                      ("dtof-study", ["accuracy", "--sensor", "phon"], "phone")):
+            self.assertEqual(self.completed(program, *words), [whole], (program, words))
+
+    def test_bash_takes_the_completion_for_the_program(self) -> None:
+        for program in PROGRAMS:
             script = self.prefix / "share/bash-completion/completions" / program
-            function = program.replace("-", "_")
-            said = output("bash", "-c", f"source '{script}'; COMP_WORDS=({program} {word}); COMP_CWORD=1; _{function}; echo \"${{COMPREPLY[@]}}\"")
-            self.assertIn(completed, said.split())
+            self.assertIn(f"-F _{program.replace('-', '_')} {program}", output("bash", "-c", f"source '{script}'; complete -p {program}"))
 
 
 if __name__ == "__main__":

@@ -57,12 +57,12 @@ std::string ByteStream::take(std::size_t size, std::string_view what) {
   return bytes;
 }
 
-bool ByteStream::take_number(std::uint32_t& number, std::string_view what) {
+bool ByteStream::take_number(std::uint32_t& number, std::string_view what, std::uint64_t index) {
   if (buffer_.size() - next_ < sizeof number) {
     if (next_ == buffer_.size() && !refill()) {
       return false;
     }
-    number = number_at<std::uint32_t>(take(sizeof number, what), 0);
+    number = number_at<std::uint32_t>(take(sizeof number, fmt::format("{} {}", what, index)), 0);
     return true;
   }
   number = number_at<std::uint32_t>(buffer_, next_);

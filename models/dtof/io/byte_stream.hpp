@@ -37,9 +37,9 @@ class ByteStream {
 
   /// Returns the next `size` bytes. Throws "the file ends in <what>" if fewer are left.
   std::string take(std::size_t size, std::string_view what);
-  /// Reads the next little-endian number; false at the end of the file. Throws if the file ends within the
-  /// number.
-  bool take_number(std::uint32_t& number, std::string_view what);
+  /// Reads the next little-endian number; false at the end of the file. Throws "the file ends in <what>
+  /// <index>" if the file ends within the number.
+  bool take_number(std::uint32_t& number, std::string_view what, std::uint64_t index);
 
  private:
   bool refill();

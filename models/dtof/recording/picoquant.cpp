@@ -93,7 +93,7 @@ class PicoquantFile::Reader {
         header.records == 0 ? std::numeric_limits<std::uint64_t>::max() : header.records;
     PicoquantCount count;
     std::uint32_t record = 0;
-    while (count.records < most && bytes_.take_number(record, fmt::format("record {}", count.records))) {
+    while (count.records < most && bytes_.take_number(record, "record", count.records)) {
       ++count.records;
       const auto event = layout_.pico_harp ? pico_harp_event(record, count) : hydra_harp_event(record, count);
       if (!event) {

@@ -77,7 +77,9 @@ TransientFile read_members(const std::filesystem::path& path, std::string name,
 }  // namespace
 
 TransientFile read_transient_file(const std::string& name) {
-  const auto [path, array] = parse_array_address(name);
+  const ArrayAddress address = parse_array_address(name);
+  const std::filesystem::path& path = address.file;  // clang: a lambda cannot capture a structured binding
+  const std::string& array = address.array;
   if (is_hdf5(path)) {
     // A name may lack the slash in front.
     const std::string wanted = array.empty() || array.starts_with('/') ? array : "/" + array;

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files beyond 4 GiB: what is read in pieces is read to its end, what is held is refused before it is held.
+// The files have holes, so that they take no space on the disk.
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "dtof/container/hdf5_array.hpp"
+#include "dtof/io/atomic_file.hpp"
+#include "dtof/recording/line_reader.hpp"
+#include "dtof/recording/picoquant.hpp"
+#include "dtof/recording/recording.hpp"
+#include "tests/io/io_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+
+constexpr std::uint64_t kFourGiB = std::uint64_t{1} << 32U;
+
+template <typename T>
+std::string bytes_of(T number) {
+  std::string bytes(sizeof number, '\0');
+  std::memcpy(bytes.data(), &number, sizeof number);
+  return bytes;
+}
+
+std::string tag(std::string name, std::uint32_t type, std::uint64_t bits) {
+  name.resize(32, '\0');
+  return name + bytes_of(std::uint32_t{0xFFFFFFFF}) + bytes_of(type) + bytes_of(bits);
+}
+
+/// A HydraHarp's PTU header of mode T3 with a unit of 16 ps. A record of zeros is a photon of channel 0 at
+/// time 0.
+std::string ptu_header(std::uint64_t records) {
+  constexpr std::uint32_t kInteger = 0x10000008;
+  constexpr std::uint32_t kDouble = 0x20000008;
+  return std::string("PQTTTR\0\0", 8) + std::string("1.0.00\0\0", 8) +
+         tag("TTResultFormat_TTTRRecType", kInteger, 0x01010304) +
+         tag("MeasDesc_Resolution", kDouble, std::bit_cast<std::uint64_t>(16e-12)) +
+         tag("TTResult_NumberOfRecords", kInteger, records) + tag("Header_End", 0xFFFF0008, 0);
+}
+
+/// A HydraHarp's HT3 header of version 2.0, without inputs.
+std::string ht3_header(std::int64_t records) {
+  std::string header(0x2b8 + 24, '\0');
+  const auto put = [&](std::size_t place, std::string_view bytes) {
+    header.replace(place, bytes.size(), bytes);
+  };
+  put(0, "HydraHarp");
+  put(16, "2.0");
+  put(0x14c, bytes_of(std::int32_t{32}));
+  put(0x154, bytes_of(std::int32_t{3}));
+  put(0x160, bytes_of(16.0));
+  put(0x2b8 + 16, bytes_of(records));
+  return header;
+}
+
+constexpr std::uint32_t photon_t3(std::uint32_t channel, std::uint32_t time) {
+  return channel << 25U | time << 10U;
+}
+
+/// The tests' files lie in the working directory, which CTest sets to the build folder: /tmp may be memory.
+class LongFileTest : public ::testing::Test {
+ public:
+  LongFileTest(const LongFileTest&) = delete;
+  LongFileTest& operator=(const LongFileTest&) = delete;
+  LongFileTest(LongFileTest&&) = delete;
+  LongFileTest& operator=(LongFileTest&&) = delete;
+
+ protected:
+  LongFileTest() {
+    std::string name = (std::filesystem::current_path() / "dtof_long_XXXXXX").string();
+    if (const char* const made = ::mkdtemp(name.data()); made != nullptr) {
+      directory_ = made;
+    }
+  }
+  ~LongFileTest() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(directory_, ignored);
+  }
+  void SetUp() override {
+    if (directory_.empty()) {
+      GTEST_SKIP() << "the working directory cannot be written";
+    }
+    write_with_hole("probe", "begin", kFourGiB, "end");
+    if (!is_sparse("probe")) {
+      GTEST_SKIP() << "the file system has no files with holes";
+    }
+  }
+
+  [[nodiscard]] std::string path(std::string_view name) const { return directory_ / name; }
+
+  /// `begin`, zeros up to the byte `end_at`, and `end`.
+  void write_with_hole(std::string_view name, std::string_view begin, std::uint64_t end_at,
+                       std::string_view end) const {
+    std::ofstream file(path(name), std::ios::binary);
+    file << begin;
+    file.seekp(static_cast<std::streamoff>(end_at));
+    file << end;
+  }
+
+  [[nodiscard]] bool is_sparse(std::string_view name) const {
+    struct stat status {};
+    constexpr std::int64_t kBlock = 512;
+    constexpr std::int64_t kMost = std::int64_t{1} << 24U;
+    return ::stat(path(name).c_str(), &status) == 0 &&
+           static_cast<std::uint64_t>(status.st_size) > kFourGiB && status.st_blocks * kBlock < kMost;
+  }
+
+  /// `header`, records of zeros beyond 4 GiB, and a photon of channel 1 at time 7 as the last record.
+  void expect_read_to_its_end(std::string_view name, const std::string& header, std::uint64_t records) const {
+    write_with_hole(name, header, header.size() + (records - 1) * 4, bytes_of(photon_t3(1, 7)));
+    ASSERT_TRUE(is_sparse(name));
+    const RecordingOptions options{.file = path(name)};
+    const RecordingFile file = read_recording(options);
+    EXPECT_EQ(file.format, "picoquant");
+    EXPECT_TRUE(file.contents.empty());
+    std::string description;
+    const HistogramCube cube = picoquant_cube(path(name), description);
+    EXPECT_EQ(description, fmt::format("PicoQuant, T3, {} photons", records));
+    EXPECT_EQ(cube.columns, 2);
+    EXPECT_EQ(cube.bins, 8);
+    EXPECT_EQ(cube.counts.front(), static_cast<double>(records - 1));
+    EXPECT_EQ(cube.counts.back(), 1.0);
+  }
+
+  /// The most memory that this process has held so far, bytes.
+  static std::uint64_t held() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  }
+
+ private:
+  std::filesystem::path directory_;
+};
+
+TEST_F(LongFileTest, TimeTagsBeyond4GiBAreCounted) {
+  constexpr std::uint64_t kRecords = kFourGiB / 4 + 1000;
+  const std::uint64_t before = held();
+  expect_read_to_its_end("a.ptu", ptu_header(kRecords), kRecords);
+  EXPECT_LT(held() - before, std::uint64_t{1} << 26U);
+}
+
+TEST_F(LongFileTest, AnHt3HeaderMayNameMoreRecordsThan32BitsHold) {
+  constexpr std::int64_t kNamed = (std::int64_t{1} << 32U) + 5;
+  write_with_hole("a.ht3", ht3_header(kNamed), ht3_header(kNamed).size(), bytes_of(photon_t3(1, 7)));
+  std::string description;
+  (void)picoquant_cube(path("a.ht3"), description);
+  EXPECT_EQ(
+      description,
+      "PicoQuant, T3, 1 photons, 4294967300 of the 4294967301 records that the header names are missing");
+}
+
+TEST_F(LongFileTest, AnArrayBeyond4GiBIsRefusedBeforeItIsHeld) {
+  const std::uint64_t before = held();
+  const std::string header =
+      "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 600000000), }" + std::string(48, ' ');
+  const std::string npy =
+      "\x93NUMPY" + std::string("\x01\x00", 2) + bytes_of(static_cast<std::uint16_t>(header.size())) + header;
+  for (const auto& [name, begin] : {std::pair<const char*, std::string>{"a.npy", npy},
+                                    {"a.npz", "PK\x03\x04"},
+                                    {"a.csv", "acquisition,column,row,timestamp\n"},
+                                    {"a.mat", "MATLAB 5.0 MAT-file"}}) {
+    write_with_hole(name, begin, kFourGiB, "end");
+    const RecordingOptions options{.file = path(name)};
+    test::expect_input_error([&] { (void)read_recording(options); },
+                             path(name) + ": more than 4096 MiB to read");
+  }
+  EXPECT_LT(held() - before, std::uint64_t{1} << 26U);
+}
+
+// Text with holes is no text: the lines are those of gzip members that repeat.
+TEST_F(LongFileTest, LinesBeyond4GiBAreReadAndCounted) {
+  constexpr std::size_t kLine = std::size_t{1} << 16U;
+  constexpr std::size_t kLinesOfMember = 1024;
+  constexpr std::size_t kMembers = kFourGiB / (kLine * kLinesOfMember);
+  std::string member;
+  for (std::size_t line = 0; line < kLinesOfMember; ++line) {
+    member.append(kLine - 1, 'x') += '\n';
+  }
+  write_gzip_file(path("member"), member);
+  {
+    std::ifstream packed(path("member"), std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(packed), {}};
+    std::ofstream file(path("a.gz"), std::ios::binary);
+    for (std::size_t i = 0; i < kMembers; ++i) {
+      file << bytes;
+    }
+  }
+  write_gzip_file(path("member"), "the last line");
+  {
+    std::ifstream packed(path("member"), std::ios::binary);
+    std::ofstream(path("a.gz"), std::ios::binary | std::ios::app) << packed.rdbuf();
+  }
+  member.clear();
+  member.shrink_to_fit();
+  const std::uint64_t before = held();
+  LineReader reader(path("a.gz"));
+  std::size_t bytes = 0;
+  std::string last;
+  for (std::string_view line; reader.next(line);) {
+    bytes += line.size() + 1;
+    last = line.size() < kLine - 1 ? line : "";
+  }
+  EXPECT_EQ(bytes, kFourGiB + 14);
+  EXPECT_EQ(last, "the last line");
+  test::expect_input_error([&] { reader.fail("."); },
+                           EndsWith(fmt::format("a.gz:{}: .", kMembers * kLinesOfMember + 1)));
+  EXPECT_LT(held() - before, std::uint64_t{1} << 26U);
+}
+
+TEST_F(LongFileTest, AnHdf5ArrayBehind4GiBIsReadAndALongOneIsRefused) {
+  const hid_t file = H5Fcreate(path("a.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
+  const auto add = [&](const char* name, hsize_t extent, const std::vector<double>& values) {
+    const hid_t space = H5Screate_simple(1, &extent, nullptr);
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_alloc_time(layout, H5D_ALLOC_TIME_EARLY);  // the place is taken, and nothing is written into it
+    H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER);
+    const hid_t dataset = H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    if (!values.empty()) {
+      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    }
+    H5Dclose(dataset);
+    H5Pclose(layout);
+    H5Sclose(space);
+  };
+  add("long", kFourGiB / 8 + 1, {});
+  add("behind", 3, {1.0, 2.0, 3.0});
+  H5Fclose(file);
+  ASSERT_TRUE(is_sparse("a.h5"));
+  EXPECT_THAT(read_hdf5_array(path("a.h5"), "/behind").values, ElementsAre(1.0, 2.0, 3.0));
+  test::expect_input_error([&] { (void)read_hdf5_array(path("a.h5"), "/long"); },
+                           EndsWith("/long: shape (536870913) holds more than 2^27 elements"));
+}
+
+}  // namespace
+}  // namespace dtof
