@@ -2,7 +2,8 @@
 // poolPointer: state machine of a frame and counter of acquisitions, once per array.
 //
 // IDLE -> RESET -> COARSE -> DECODE -> RESET -> TRACK -> CHOOSE -> POINT -> DECIDE -> IDLE
-//   RESET clears the pixels' words, and in the first RESET those of the groups if FIRST_CLEAR_WORDS says so, one address per clock. COARSE, TRACK and POINT take timestamps. In DECODE, CHOOSE and DECIDE
+//   RESET clears the pixels' words, and before COARSE those of the groups, too, if FIRST_CLEAR_WORDS includes them: one address per clock.
+//   COARSE, TRACK and POINT take timestamps. In DECODE, CHOOSE and DECIDE
 //   the engines work; in DECIDE they also send the results.
 // A stream phase takes acquisitions up to its end in the schedule (docs/reference/poolpointer.md, Parameters): coarse_end_i, track_end_i,
 // acq_num_i. All three are sampled with start_i in IDLE; start_i while busy is ignored. done_o is high in the frame's last clock.
@@ -15,7 +16,7 @@
 
 module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int CLEAR_WORDS = 80,  // pixels' words, before the track phase
-    parameter int FIRST_CLEAR_WORDS = 80,  // words before the coarse phase; more than CLEAR_WORDS: those of the groups, too
+    parameter int FIRST_CLEAR_WORDS = CLEAR_WORDS,  // words before the coarse phase; more than CLEAR_WORDS: those of the groups, too
     parameter int ADDR_WIDTH = 7,
     parameter int ACQ_WIDTH = 16
 ) (
