@@ -284,7 +284,7 @@ class Checker:
         """Between frames with a prior, the quads' memories and the flag are kept, and nothing else."""
         for path, instance in self.design.scopes.items():
             if instance.module == "dtof_sram" and path.startswith(f"{scope}.".lstrip(".")):
-                holder = self.design.scopes[path.rpartition(".")[0]].module
+                holder = self.design.scopes[path.rsplit(".", 2)[0]].module  # around the dtof_parity_sram
                 kept = self.is_on(self.supplies.get(self.domain_of(path), ""), state, scope)
                 if kept != (holder == PRIOR_HOLDERS):
                     self.say(f"memory {path} is {'kept' if kept else 'not kept'} in idle_with_prior")

@@ -310,7 +310,7 @@ TEST_P(Shots, EndWithTheirFrame) {
   CounterRandom random = this->random(54);
   std::size_t timeouts = 0;
   std::size_t aborted = 0;
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < 90; ++round) {
     SCOPED_TRACE(testing::Message() << "round " << round);
     const auto acquisitions = static_cast<std::uint32_t>(2 + pick(random, 8));
     write_settings(bench_, settings(acquisitions));
