@@ -48,8 +48,9 @@ std::vector<Row> parameter_limits() {
 
 // Parameters of the array alone: a model does not have them, or has one value of them.
 const std::set<std::string> kOfTheArray = {
-    "READOUT",     "PIXELS_PER_SRAM", "SRAM_NUM",  "POINTER_PORTS", "ENGINE_COLUMNS", "ACQ_WIDTH",
-    "RIVAL_MOVES", "SECOND_TARGET",   "AMPLITUDE", "PRIOR",         "RAW_HISTOGRAM",  "BROADCAST_STAGES"};
+    "READOUT",       "PIXELS_PER_SRAM",  "SRAM_NUM",      "POINTER_PORTS", "ENGINE_COLUMNS",
+    "ACQ_WIDTH",     "RIVAL_MOVES",      "SECOND_TARGET", "AMPLITUDE",     "PRIOR",
+    "RAW_HISTOGRAM", "BROADCAST_STAGES", "PARITY"};
 
 // The schedule that dtof_subsystem recommends is the models'.
 bool is_schedule(const Row& row) {
