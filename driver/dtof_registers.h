@@ -315,7 +315,7 @@
 #define DTOF_FRAME_CRC_VALUE_LSB 0
 #define DTOF_FRAME_CRC_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* reads since reset of words with a wrong parity; reads of one array in one clock count once */
+/* reads since reset of words with a wrong parity; errors of an array that meet on their way along the columns count once */
 #define DTOF_PARITY_ERRORS UINT32_C(0x120)
 #define DTOF_PARITY_ERRORS_VALUE_LSB 0
 #define DTOF_PARITY_ERRORS_VALUE_MASK UINT32_C(0xFFFFFFFF)

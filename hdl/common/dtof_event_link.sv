@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One link of a chain along the columns: an event of this column, or of the column before in the chain, moves on by one column per
-// clock. Nothing stops the chain. Two events that meet in a link become one event.
+// One link of a chain along the columns, SRAMs or engines of an array: an event of this column, or of the column before in the chain, moves
+// on by one column per clock. Nothing stops the chain. Two events that meet in a link become one event.
 // Latency: 1 clock per column. Cost: with PRESENT = 1 a flip-flop with reset and an OR gate, with PRESENT = 0 nothing.
 
 // verilator lint_off TIMESCALEMOD

@@ -4,9 +4,8 @@
 // 1. With PARITY = 1 a word is stored with the XOR of its bits. A word that is read with an odd number of wrong bits raises error_o;
 //    read_data_o has the wrong word. An even number of wrong bits has no effect on error_o.
 // 2. With PARITY = 0 this module is a dtof_sram and nothing else.
-//
-// 3. Words that nobody uses are not checked: words that are written in the clock in which they are read, and words for which
-//    ignore_i is high in the clock of the data. ignore_i is high for a word that was not written before.
+// 3. A word whose data nothing uses is not checked: a word that is written in the clock of its read, and a word for which ignore_i is
+//    high in the clock of the data. A word that was never written has no parity yet, so its reader raises ignore_i.
 //
 // Contract: that of dtof_sram.
 // Schedule: read_en_i in clock 0, data and ignore_i in clock 1, error_o in clock 2 for one clock, from a flip-flop.

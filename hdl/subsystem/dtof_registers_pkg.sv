@@ -356,7 +356,7 @@ package dtof_registers_pkg;
   localparam int FRAME_CRC_VALUE_LSB = 0;
   localparam int FRAME_CRC_VALUE_WIDTH = 32;
 
-  // reads since reset of words with a wrong parity; reads of one array in one clock count once
+  // reads since reset of words with a wrong parity; errors of an array that meet on their way along the columns count once
   localparam logic [11:0] PARITY_ERRORS = 12'h120;
   localparam logic [31:0] PARITY_ERRORS_RESET = 32'h00000000;
   localparam int PARITY_ERRORS_VALUE_LSB = 0;
