@@ -243,6 +243,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic [POSITION_WIDTH-1:0] position;  // winner of decide
   logic [WINNER_WIDTH-1:0] winner;
   logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
+  logic [LEFT_WIDTH-1:0] written_left;
 
   genvar k;
   generate
@@ -254,7 +255,15 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign five_backgrounds = (BACKGROUND_WIDTH + 3)'(background) + ((BACKGROUND_WIDTH + 3)'(background) << 2);
   assign choose_penalty = CHOOSE_PENALTY_WIDTH'(five_backgrounds >> 4) + CHOOSE_PENALTY_WIDTH'(2);
   assign left_cell = scratch[CELL_WIDTH-1:0];
-  assign choose_scratch = SCRATCH_WIDTH'({choose_message, command_i.back ? best_lead : scratch[LEFT_WIDTH-1:0]});
+  generate
+    if (PARITY != 0) begin : g_written_left
+      // The first column writes zeros for the column to its left, so that no word has bits that were never written.
+      assign written_left = scratch[LEFT_WIDTH-1:0] & {LEFT_WIDTH{command_i.beside.has_left}};
+    end else begin : g_left
+      assign written_left = scratch[LEFT_WIDTH-1:0];
+    end
+  endgenerate
+  assign choose_scratch = SCRATCH_WIDTH'({choose_message, command_i.back ? best_lead : written_left});
   generate
     if (SIGNIFICANCE_WIDTH != 0) begin : g_winner_margin
       assign winner = {decide_margin[CONFIDENCE_WIDTH-1:0], position[15:0]};
