@@ -16,6 +16,7 @@
 # make wave       READOUT's waveform; make full: dtof with subsystems and the RTL of poolPointer (scripts/wave.mk)
 # make fpga-check what a small subsystem takes on four FPGA families, by Yosys (scripts/fpga.mk)
 # make fpga       a demonstrator for an iCE40: bitstream, utilisation, its netlist simulated (scripts/fpga.mk)
+# make shuttle    a chip in IHP's open 130 nm process: netlist, timing in three corners, inputs of two layout flows (synth/shuttle.mk)
 # make random-configurations  N=30 arrays of drawn parameters beside their models (scripts/random.mk)
 # make example    a frame of dtof_subsystem in a small SystemVerilog bench (scripts/example.mk)
 # make bench      speed of RTL, models and photon model; SMALL=1: each once, on less work
@@ -113,6 +114,7 @@ clean:
 
 include synth/synth.mk
 include synth/layout.mk
+include synth/shuttle.mk
 include scripts/reproduce.mk
 include scripts/coverage_study.mk
 include scripts/photon_report.mk

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the RTL of every named configuration, the subsystem around every read-out, the FPGA demonstrator and the SoC example with
+"""Reads the RTL of every named configuration, the subsystem around every read-out, the FPGA demonstrator, the shuttle chip and the SoC example with
 Verilator -Wall, Yosys and Icarus Verilog.
 
 Also checks that illegal parameters stop elaboration with their sentence and the last legal ones do not
@@ -14,6 +14,7 @@ of dtof_array, of which Yosys reads no variant, and the subsystem of each read-o
 
 import re
 import subprocess
+import tempfile
 import sys
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -34,6 +35,16 @@ IN_FRONT: dict[str, dict[str, int]] = {
     "dtof_async_line_fifo": {"WIDTH": 12, "DEPTH": 2}}  # what stands in front of it
 DEMONSTRATOR = "demonstrator"  # an FPGA around it, in fpga/
 SOC = "soc"  # a chip around it, in examples/soc/
+SHUTTLE = "dtof_shuttle_pads"  # a chip in open silicon, in shuttle/
+# The cells that this chip names: the clock gate and the pads of IHP's library.
+SHUTTLE_CELLS = """module sg13g2_lgcp_1 (input CLK, input GATE, output GCLK); assign GCLK = CLK & GATE; endmodule
+module sg13g2_IOPadIn (inout pad, output p2c); assign p2c = pad; endmodule
+module sg13g2_IOPadOut4mA (inout pad, input c2p); assign pad = c2p; endmodule
+module sg13g2_IOPadVdd; endmodule
+module sg13g2_IOPadVss; endmodule
+module sg13g2_IOPadIOVdd; endmodule
+module sg13g2_IOPadIOVss; endmodule
+"""
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"
 MISREAD = [  # pattern in the RTL, and what is wrong with it
     (re.compile(r"\b(?:localparam|parameter)\b[^;=]*=\s*'1\b"),
@@ -118,6 +129,16 @@ def check_demonstrator() -> list[str]:
     listed = [file.replace("/behavioural/", "/fpga/") for file in source_files()]
     files = [*listed, *sorted(f"../{file.relative_to(ROOT)}" for file in (ROOT / "fpga").glob("*.sv"))]
     return check_around(DEMONSTRATOR, files)
+
+
+def check_shuttle() -> list[str]:
+    """Reads the chip of shuttle/ with its pads and with the memories of IHP's process."""
+    listed = [file.replace("/behavioural/", "/ihp130/") for file in source_files()]
+    files = [*listed, *sorted(f"../{file.relative_to(ROOT)}" for folder in ("fpga", "shuttle") for file in (ROOT / folder).glob("*.sv"))]
+    with tempfile.TemporaryDirectory() as folder:
+        cells = Path(folder) / "cells.v"
+        cells.write_text("/* verilator lint_off DECLFILENAME */\n" + SHUTTLE_CELLS, encoding="utf-8")
+        return check_around(SHUTTLE, [str(cells), *files])
 
 
 def check_soc() -> list[str]:
@@ -263,7 +284,7 @@ def main() -> int:
         limit = pool.map(lambda row: check_limit(row[0], row[1], row[2], quick), limits)
         subsystem = pool.map(lambda number: check_subsystem(number, quick), subsystem_numbers())
         in_front = [text for top, settings in IN_FRONT.items() for text in check_read(top, top, settings)]
-        failures += [text for group in (*legal, *limit, *subsystem, in_front, check_demonstrator(), check_soc(), block_ram.result()) for text in group]
+        failures += [text for group in (*legal, *limit, *subsystem, in_front, check_demonstrator(), check_shuttle(), check_soc(), block_ram.result()) for text in group]
     if slang.is_installed():
         failures += slang.check()
     for text in failures:
@@ -273,7 +294,7 @@ def main() -> int:
               else f"slang: {len(SIZE)} tops skipped, for it is not installed (make lint-slang installs it)")
         print(
             f"RTL lint: {len(configurations)} configurations, the subsystem of {len(subsystem_numbers())} read-outs, the "
-            "demonstrator and the SoC example clean in Verilator, Yosys and Icarus Verilog; "
+            "demonstrator, the shuttle chip and the SoC example clean in Verilator, Yosys and Icarus Verilog; "
             f"{len(illegal)} illegal parameters refused, {len(limits) - len(illegal)} legal extremes taken; "
             f"stand-ins become block RAM ({', '.join(BLOCK_RAM)})"
             + ("; what the build has verilated is not read by Verilator again, legal extremes by one tool" if quick else "")

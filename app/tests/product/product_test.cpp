@@ -124,6 +124,26 @@ TEST_F(Product, WithASelfTestRunsItInItsBench) {
   EXPECT_THAT(read_file(folder_ / "without/rtl/dtof_product.sv"), Not(HasSubstr("SELF_TEST")));
 }
 
+TEST_F(Product, WithTheMemoriesOfTheShuttleChipPassesItsOwnMake) {
+  const std::string root = DTOF_ROOT;
+  ASSERT_EQ(shell(fmt::format("{} product --sensor {}/shuttle/sensor.toml --readout ezpointer "
+                              "--vector-acquisitions 20 --out chip",
+                              DTOF_PROGRAM, root))
+                .exit_code,
+            0);
+  // The library's clock gate is a cell, whose model follows in the same file.
+  const Outcome swapped = shell(fmt::format(
+      "cp {0}/hdl/technology/ihp130/*.sv chip/rtl/hdl/technology/behavioural/ && "
+      "cat {0}/tb_cpp/tests/demonstrator/sg13g2_lgcp_1.sv >> chip/rtl/hdl/technology/behavioural/dtof_clock_gate.sv",
+      root));
+  ASSERT_EQ(swapped.exit_code, 0) << swapped.output;
+  const Outcome checked = shell("make -C chip icarus");
+  EXPECT_EQ(checked.exit_code, 0) << checked.output;
+  replace("chip/rtl/hdl/technology/behavioural/dtof_sram_1r1w.sv", "rdata_o <= memory[raddr_i]",
+          "rdata_o <= memory[waddr_i]");
+  EXPECT_NE(shell("make -C chip icarus").exit_code, 0) << "the frame does not depend on these memories";
+}
+
 TEST_F(Product, ForFogHasItsTemplate) {
   std::ofstream(folder_ / "fog.toml") << kSensor << "\n[fog]\nextinction_per_m = 0.1\n";
   ASSERT_EQ(shell(fmt::format("{} product --sensor fog.toml --readout poolpointer --template --out chip",

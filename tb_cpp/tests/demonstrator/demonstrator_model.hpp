@@ -10,7 +10,7 @@ class VerilatedContext;
 
 namespace dtof {
 
-/// The Verilated demonstrator, from RTL or from a netlist.
+/// The Verilated demonstrator of the FPGA or of the shuttle chip, from RTL or from a netlist.
 class DemonstratorModel {
  public:
   DemonstratorModel() = default;
@@ -22,6 +22,8 @@ class DemonstratorModel {
 
   [[nodiscard]] virtual Readout readout() const = 0;
   [[nodiscard]] virtual int columns() const = 0;
+  [[nodiscard]] virtual int rows() const = 0;
+  [[nodiscard]] virtual int clocks_per_bit() const = 0;
   /// Runs one clock with level `rx` at the serial input; returns the level of the serial output.
   [[nodiscard]] virtual bool clock(bool rx) = 0;
   /// Level of the light output, which changes with every frame.

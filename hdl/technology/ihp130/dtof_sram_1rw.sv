@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Single-port memory of flip-flops, for a small array in a process without SRAM macros. It replaces the module in technology/behavioural and
+// has the same contract: one port that reads or writes, one clock.
+//
+// Read:   with en_i and not we_i, rdata_o has the word one clock later and holds it until the next access.
+// Write:  with en_i and we_i, wdata_i is stored at the clock edge; rdata_o is undefined afterwards. It holds here.
+// Side band: this memory does not use cfg_i and connects it to cfg_o, so that a simulation can check the whole path.
+// Latency: one clock. Cost: (DEPTH + 1) x WIDTH flip-flops, a multiplexer of DEPTH words, a decoder.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_sram_1rw #(
+    parameter int DEPTH = 16,
+    parameter int WIDTH = 8,
+    parameter int CFG_WIDTH = 1,
+    localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
+) (
+    input  logic                  clk_i,
+    input  logic [ CFG_WIDTH-1:0] cfg_i,
+    output logic [ CFG_WIDTH-1:0] cfg_o,
+    input  logic                  en_i,
+    input  logic                  we_i,
+    input  logic [ADDR_WIDTH-1:0] addr_i,
+    input  logic [     WIDTH-1:0] wdata_i,
+    output logic [     WIDTH-1:0] rdata_o
+);
+
+  assign cfg_o = cfg_i;
+
+  logic [WIDTH-1:0] memory[DEPTH];
+
+  always_ff @(posedge clk_i) begin
+    if (en_i && we_i) begin
+      memory[addr_i] <= wdata_i;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (en_i && !we_i) begin
+      rdata_o <= memory[addr_i];
+    end
+  end
+
+endmodule
+
+`default_nettype wire
