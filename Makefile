@@ -131,6 +131,7 @@ include scripts/playground.mk
 include scripts/wave.mk
 include scripts/random.mk
 include scripts/example.mk
+include scripts/products.mk
 include scripts/fpga.mk
 include scripts/sweep.mk
 include scripts/reports.mk

@@ -17,7 +17,7 @@
 #                      CONFIGURATIONS="sifh fifh" SEED=2               some configurations, other random frames
 # make sim-netlist-full  netlists of 200 columns (ezPointer, hisPointer, poolPointer) in Verilator against the model
 # make power           power from the activity of netlists on a scene: reports/power.md (minutes)
-.PHONY: synth power synth-growth synth-estimate synth-subsystem synth-flat synth-corners synth-namings synth-versions synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
+.PHONY: synth power synth-growth synth-scale synth-estimate synth-subsystem synth-flat synth-corners synth-namings synth-versions synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
@@ -47,6 +47,12 @@ synth-growth:
 	@synth/synth.py growth
 	@scripts/growth_plot.py
 	@scripts/reports.py record growth
+
+synth-scale: configure
+	@scripts/reports.py begin scale
+	@ninja -C $(BUILD) dtof > $(BUILD).log || { cat $(BUILD).log; exit 1; }
+	@synth/scale.py
+	@scripts/reports.py record scale
 
 synth-estimate: $(if $(POINTS),vectors)
 	@scripts/reports.py begin estimate

@@ -132,10 +132,11 @@ TEST_F(Product, WithTheMemoriesOfTheShuttleChipPassesItsOwnMake) {
                 .exit_code,
             0);
   // The library's clock gate is a cell, whose model follows in the same file.
-  const Outcome swapped = shell(fmt::format(
-      "cp {0}/hdl/technology/ihp130/*.sv chip/rtl/hdl/technology/behavioural/ && "
-      "cat {0}/tb_cpp/tests/demonstrator/sg13g2_lgcp_1.sv >> chip/rtl/hdl/technology/behavioural/dtof_clock_gate.sv",
-      root));
+  const Outcome swapped =
+      shell(fmt::format("cp {0}/hdl/technology/ihp130/*.sv chip/rtl/hdl/technology/behavioural/ && "
+                        "cat {0}/tb_cpp/tests/demonstrator/sg13g2_lgcp_1.sv >> "
+                        "chip/rtl/hdl/technology/behavioural/dtof_clock_gate.sv",
+                        root));
   ASSERT_EQ(swapped.exit_code, 0) << swapped.output;
   const Outcome checked = shell("make -C chip icarus");
   EXPECT_EQ(checked.exit_code, 0) << checked.output;

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Arrays of other sizes: their parameters, the extrapolation of a simulation's time, and the page."""
+
+import csv
+import io
+import json
+import subprocess
+import sys
+import unittest
+from dataclasses import replace
+from pathlib import Path
+
+from dtof_synth import configuration, scale
+from dtof_synth.errors import FlowError
+
+ROOT = Path(__file__).resolve().parents[2]
+NAMED = configuration.load(ROOT / "configurations.toml")
+SENSOR = 'name = "thesis"\n\n[array]\ncolumns = 200\nrows = 160\n'
+FITS = ("ezPointer: a frame of 3333 acquisitions takes 1112812 clocks, 3.37 ms at 330 MHz; 30 frames/s leave 11000000, so that the frame fits.\n"
+        "poolPointer: a frame of 3333 acquisitions takes 13000000 clocks, 39 ms at 330 MHz; 30 frames/s leave 11000000. It would fit with 2000 "
+        "acquisitions.\n")
+ROW = scale.Row("ezPointer", 640, 480, 6, 5.0, 335.0, 0.01, 8.0, 200.0, 3300000, 3333, 10.0, 0.02, 50.0, 0.1, 80.0, "")
+
+
+class Arrays(unittest.TestCase):
+    def test_a_register_of_the_broadcast_crosses_at_most_its_length_of_wire(self) -> None:
+        for columns, stages in ((2, 2), (64, 2), (200, 2), (240, 2), (241, 3), (320, 3), (640, 6), (960, 8), (1024, 8)):
+            self.assertEqual(scale.stages(columns), stages, columns)
+
+    def test_arrays_keep_all_other_parameters(self) -> None:
+        for item in scale.arrays(NAMED, scale.SIZES):
+            base = NAMED[item.name.rsplit("_", 1)[0]]
+            changed = {name for name, value in item.parameters.items() if base.parameters.get(name) != value}
+            self.assertLessEqual(changed, {"SRAM_NUM", "PIXELS_PER_SRAM", "BROADCAST_STAGES", "ENGINE_COLUMNS"})
+            self.assertEqual(f"{base.name}_{item['SRAM_NUM']}x{item['PIXELS_PER_SRAM']}", item.name)
+        self.assertEqual(len({item.name for item in scale.arrays(NAMED, scale.SIZES)}), len(scale.SIZES) * len(scale.READOUTS))
+
+    def test_the_sensor_has_the_arrays_size(self) -> None:
+        self.assertEqual(scale.sensor(SENSOR, 64, 50), SENSOR.replace("200", "64").replace("160", "50"))
+        with self.assertRaisesRegex(FlowError, "no line 'rows = '"):
+            scale.sensor(SENSOR.replace("rows", "lines"), 64, 50)
+
+
+class Simulation(unittest.TestCase):
+    def test_strips_are_the_columns_of_an_engine_or_ten(self) -> None:
+        large, small = scale.array(NAMED["hispointer"], 320, 240), scale.array(NAMED["hispointer"], 15, 8)
+        self.assertEqual((scale.strips(large), scale.strips(small)), ([10, 20, 30], [10, 15]))
+        pool = scale.array(NAMED["poolpointer"], 640, 480)
+        engine = pool["ENGINE_COLUMNS"]
+        self.assertEqual(scale.strips(pool), [engine, 2 * engine, 3 * engine])
+
+    def test_a_straight_line_is_extrapolated_without_error(self) -> None:
+        value, error = scale.extrapolated({10: 3.0, 20: 5.0, 30: 7.0}, 100)  # 1 + 0.2 a column
+        self.assertAlmostEqual(value, 21.0)
+        self.assertAlmostEqual(error, 0.0)
+
+    def test_a_bent_line_shows_its_error(self) -> None:
+        value, error = scale.extrapolated({10: 3.0, 20: 4.0, 30: 7.0}, 100)
+        self.assertAlmostEqual(value, 21.0)
+        self.assertAlmostEqual(error, 0.25)
+
+    def test_a_whole_array_is_not_extrapolated(self) -> None:
+        self.assertEqual(scale.extrapolated({10: 3.0, 15: 4.0}, 15), (4.0, 0.0))
+
+    def test_the_memory_is_that_of_the_command(self) -> None:
+        def memory(megabytes: int) -> float:
+            return scale._in_a_process([sys.executable, "-c", f"x = b'1' * ({megabytes} << 20)"])[1]
+
+        large, small = memory(200), memory(20)
+        self.assertGreater(large, 200)
+        self.assertLess(small, 150)  # not that of the command before
+
+    def test_a_command_that_fails_stops_the_study(self) -> None:
+        with self.assertRaisesRegex(FlowError, "no such sensor"):
+            scale._in_a_process(["sh", "-c", "echo no such sensor >&2; exit 1"])
+
+    def test_the_sentences_on_the_frame_rate_are_read(self) -> None:
+        self.assertEqual(scale.fit(FITS, "ezPointer"), (1112812, ""))
+        self.assertEqual(scale.fit(FITS, "poolPointer"), (13000000, "30 frames/s leave 11000000. It would fit with 2000 acquisitions."))
+        with self.assertRaisesRegex(FlowError, "nothing on SiFH"):
+            scale.fit(FITS, "SiFH")
+
+    def test_the_program_speaks_as_these_tests_assume(self) -> None:
+        program = ROOT / "build/cpp/bin/dtof"
+        if not program.exists():
+            self.skipTest("the program dtof is not built")
+        text = subprocess.run([program, "sensor", "thesis", "--frame-rate", "30", "--json"], capture_output=True, text=True, check=True).stdout
+        for item in (NAMED[name] for name in scale.READOUTS):
+            clocks, limit = scale.fit(json.loads(text)["fits"], item.title)
+            self.assertGreater(clocks, 3333 * 160 * 2)
+            self.assertEqual(limit, "")
+
+
+class Page(unittest.TestCase):
+    def test_rows_have_the_figures(self) -> None:
+        text = scale.report([ROW])
+        self.assertIn("No array misses the clock or the frame rate.", text)
+        self.assertIn("| ezPointer | 640 x 480 | 5.00 | 16 | 6 | 8.0 | 335 | +0.01 | 200 | 3,300,000 | 100 |", text)
+        self.assertIn("| ezPointer | 640 x 480 | 10.0 | 2% | 50.0 | 10% | 80 |", text)
+
+    def test_what_limits_an_array_has_a_line(self) -> None:
+        inside = replace(ROW, slack_margins=-0.2)
+        wires = replace(ROW, slack_margins=-0.2, columns=2048, stages=8, half_width=25.6)
+        frame = replace(ROW, limit="30 frames/s leave 11000000. It would fit with 2000 acquisitions.")
+        lines = scale._limits([ROW, inside, wires, frame])
+        self.assertEqual(len(lines), 3)
+        self.assertIn("inside the array's logic", lines[0])
+        self.assertIn("several narrower arrays", lines[1])
+        self.assertIn("2000 acquisitions", lines[2])
+
+    def test_the_table_has_every_field(self) -> None:
+        (header, values) = csv.reader(io.StringIO(scale.table([ROW])))
+        self.assertEqual(len(header), len(values))
+        self.assertEqual(dict(zip(header, values, strict=True))["model_error"], "0.02")
+
+
+if __name__ == "__main__":
+    unittest.main()
