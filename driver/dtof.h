@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Driver of dtof_subsystem (docs/user/integration.md). It configures the subsystem, starts frames, unpacks
+ * Driver of dtof_subsystem (docs/user/registers.md). It configures the subsystem, starts frames, unpacks
  * the result stream and converts positions to millimetres. C99, without dependencies and without memory of
  * its own: the caller owns the structure of a device.
  */

@@ -29,7 +29,7 @@ COLUMNS_BEGIN = "// Columns of dtof_array: written by scripts/generate.py\n"
 COLUMNS_END = "// end of columns\n"
 MEMBERS = "models/dtof/core/parameters.hpp"
 BENCH = "tb_cpp/subsystem/subsystem_testbench.sv"
-INTEGRATION = "docs/user/integration.md"
+SUBSYSTEM, REGISTERS = "docs/user/subsystem.md", "docs/user/registers.md"
 COMMANDS = "docs/user/commands.md"
 STUDIES_BEGIN, STUDIES_END = "<!-- studies: scripts/generate.py -->\n", "<!-- end of studies -->\n"
 CONFIGURATION = "docs/user/configuration.md"
@@ -332,7 +332,7 @@ def main() -> int:
         found = limits.load()
         limits.check(found, table)
         current = {name: (ROOT / name).read_text(encoding="utf-8") for name in
-                   ("hdl/dtof.f", CONFIGURATION, INTEGRATION, COMMANDS, release.CITATION)}
+                   ("hdl/dtof.f", CONFIGURATION, SUBSYSTEM, REGISTERS, COMMANDS, release.CITATION)}
         whole = registers.load()
         listing = column_files(current["hdl/dtof.f"], table)
         citation = release.citation(current[release.CITATION], file_lists.version())
@@ -357,7 +357,8 @@ def main() -> int:
             "hdl/subsystem/dtof_registers_pkg.sv": registers.systemverilog(whole),
             "driver/dtof_registers.h": registers.c_header(whole),
             **register_maps.files(whole),
-            INTEGRATION: registers.page(current[INTEGRATION], whole),
+            SUBSYSTEM: registers.page(current[SUBSYSTEM], SUBSYSTEM, registers.result_tables(whole)),
+            REGISTERS: registers.page(current[REGISTERS], REGISTERS, {"registers": registers.register_table(whole)}),
             COMMANDS: studies_table(current[COMMANDS]),
             release.CITATION: citation,
             release.ZENODO: release.zenodo(citation),

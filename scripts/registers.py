@@ -251,15 +251,18 @@ def result_table(fields: list[Field]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def page(text: str, whole: Map) -> str:
-    """The page with the tables between their marks."""
-    for name, table in (("registers", register_table(whole)), ("result word", result_table(whole.result)),
-                        ("amplitude result word", result_table(whole.amplitude_result)),
-                        ("short result word", result_table(whole.short_result))):  # fmt: skip
+def result_tables(whole: Map) -> dict[str, str]:
+    return {"result word": result_table(whole.result), "amplitude result word": result_table(whole.amplitude_result),
+            "short result word": result_table(whole.short_result)}  # fmt: skip
+
+
+def page(text: str, file: str, tables: dict[str, str]) -> str:
+    """The page `file` with each table between its marks."""
+    for name, table in tables.items():
         begin = f"<!-- {name}: written by scripts/generate.py -->\n"
         end = f"<!-- end of {name} -->\n"
         if text.count(begin) != 1 or text.count(end) != 1:
-            raise FlowError(f"docs/user/integration.md has no place for the table of {name}")
+            raise FlowError(f"{file} has no place for the table of {name}")
         head, rest = text.split(begin)
         text = head + begin + "\n" + table + "\n" + end + rest.split(end)[1]
     return text

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the timing diagrams of docs/user/integration.md from a simulation of dtof_subsystem (examples/timing_bench.sv, Icarus
+"""Draws the timing diagrams of docs/user/subsystem.md from a simulation of dtof_subsystem (examples/timing_bench.sv, Icarus
 Verilog), and counts the clocks of a frame of every read-out for its table.
 
 Each diagram is written twice to docs/user/timing/: as WaveDrom's JSON, which other tools read, and as the SVG that the page
@@ -22,7 +22,7 @@ from dtof_synth.errors import FlowError
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 FOLDER = "docs/user/timing"
-PAGE = "docs/user/integration.md"
+PAGE = "docs/user/bare_arrays.md"  # with the clocks of a frame
 BEGIN = "<!-- frame clocks: written by scripts/timing_diagrams.py -->\n"
 END = "<!-- end of frame clocks -->\n"
 BENCH = "timing_bench"

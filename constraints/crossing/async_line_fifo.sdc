@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Timing constraints of the crossing in dtof_async_line_fifo (docs/user/integration.md, TDCs of another clock). Read this file after the
+# Timing constraints of the crossing in dtof_async_line_fifo (docs/user/subsystem.md, TDCs of another clock). Read this file after the
 # constraints that create both clocks. Set before:
 #
 #   tdc_clock, tdc_period     name and period (ns) of the TDCs' clock

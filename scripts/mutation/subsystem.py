@@ -12,7 +12,7 @@ from mutation.mutant import Mutant, Selection
 from mutation.verdict import MutationError, Verdict
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-TREE = [*cpp.TREE, "docs/user/integration.md"]
+TREE = [*cpp.TREE, "docs/user/registers.md"]
 FOLDER = "hdl/subsystem"
 TARGET = "subsystem_test"
 # Frames of 3,333 acquisitions and more say nothing about a subsystem that shorter ones do not.

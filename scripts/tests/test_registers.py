@@ -90,8 +90,8 @@ class Descriptions(unittest.TestCase):
         self.assertIn("| 63:8 | `WORD` | all |", registers.result_table(whole.result))
         self.assertIn("| 55:40 | `LIGHT` | part |", registers.result_table(whole.amplitude_result))
         self.assertIn("| 31:5 | `HALF` | most |", registers.result_table(whole.short_result))
-        with self.assertRaisesRegex(FlowError, "no place for the table of registers"):
-            registers.page("# A page\n", whole)
+        with self.assertRaisesRegex(FlowError, "page.md has no place for the table of result word"):
+            registers.page("# A page\n", "page.md", registers.result_tables(whole))
 
     def test_offsets_of_the_project_do_not_move_without_a_new_version(self):
         """Software is compiled with them: who moves one raises `major` and renews this list."""

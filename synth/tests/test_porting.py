@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The example of docs/user/integration.md: an array on a compiled single-port SRAM gives the behavioural one's results."""
+"""The example of docs/user/porting.md: an array on a compiled single-port SRAM gives the behavioural one's results."""
 
 import subprocess
 import tempfile

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver's example of docs/user/integration.md, which uses the driver's defaults, on the Verilated
+// The driver's example of docs/user/registers.md, which uses the driver's defaults, on the Verilated
 // subsystem: two walls.
 #include <gtest/gtest.h>
 
