@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Takes five sensors from their file to a product (`dtof product`) whose own `make` passes, and writes reports/products.md.
 
-`make` in a product simulates a frame in Icarus Verilog and in Verilator, compares every result with the model, and checks the driver.
+`make` in a product simulates a frame in Verilator and, for a small array, in Icarus Verilog, compares every result with the model, and checks the
+driver.
 With SMALL=1 only the smallest sensor is taken.
 """
 
@@ -22,7 +23,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build" / "cpp" / "bin" / "dtof"
 BUILD = written_root(ROOT) / "build" / "products"
 REPORT = written_root(ROOT) / "reports" / "products.md"
-PASSED = "PASS: icarus, verilator, driver"
+PASSED = re.compile(r"^PASS: (icarus, )?verilator, driver$", re.MULTILINE)
 
 
 class ProductError(Exception):
@@ -61,6 +62,7 @@ class Product:
     frame: str  # the program's sentence on the frame's time
     acquisitions: int  # of the simulated frame
     results: int  # that were compared, in each simulator
+    simulators: str
     seconds: float  # of the product's `make`
 
 
@@ -98,28 +100,30 @@ def make(sensor: Sensor) -> Product:
     started = time.monotonic()
     text = run(["make", "-C", str(folder)], log)
     seconds = time.monotonic() - started
-    if PASSED not in text:
-        raise ProductError(f"{folder}: make does not say '{PASSED}' (see {log})")
-    frames = [simulated((folder / "build" / f"{tool}.log").read_text(encoding="utf-8")) for tool in ("icarus", "verilator")]
-    if frames[0] != frames[1]:
+    passed = PASSED.search(text)
+    if not passed:
+        raise ProductError(f"{folder}: make does not say that all checks pass (see {log})")
+    tools = ("icarus", "verilator") if passed.group(1) else ("verilator",)
+    frames = [simulated((folder / "build" / f"{tool}.log").read_text(encoding="utf-8")) for tool in tools]
+    if frames[0] != frames[-1]:
         raise ProductError(f"{folder}: Icarus Verilog and Verilator simulated different frames")
     acquisitions, columns, rows, results = frames[0]
     report = (folder / "report.md").read_text(encoding="utf-8")
     frame = next(line for line in report.splitlines() if ": a frame of " in line)
-    return Product(sensor, columns, rows, parameter(report, "NP"), frame, acquisitions, results, seconds)
+    return Product(sensor, columns, rows, parameter(report, "NP"), frame, acquisitions, results, " and ".join({"icarus": "Icarus Verilog", "verilator": "Verilator"}[tool] for tool in tools), seconds)
 
 
 def page(products: list[Product]) -> str:
     rows = [f"| {one.sensor.what} (`{one.sensor.given}`) | {one.columns} x {one.rows} | {one.bits} | {one.sensor.readout} | {one.acquisitions:,} | "
-            f"{one.results:,} | {one.seconds:.0f} |" for one in products]
+            f"{one.results:,} | {one.simulators} | {one.seconds:.0f} |" for one in products]
     return "\n".join([
         "# From a sensor file to a product",
         "",
-        "From `make products`: `dtof product` for each sensor, then the product's own `make`. It simulates a frame of the sensor's photons in Icarus",
-        "Verilog and in Verilator, compares every result with the model, and compiles and checks the driver. All of the products below pass.",
+        "From `make products`: `dtof product` for each sensor, then the product's own `make`. It simulates a frame of the sensor's photons,",
+        "compares every result with the model, and compiles and checks the driver. All of the products below pass.",
         "",
-        "| sensor | columns x rows | bits of a timestamp | read-out | acquisitions simulated | results compared | `make`, s |",
-        "|---|---:|---:|---|---:|---:|---:|",
+        "| sensor | columns x rows | bits of a timestamp | read-out | acquisitions simulated | results compared | in | `make`, s |",
+        "|---|---:|---:|---|---:|---:|---|---:|",
         *rows,
         "",
         "The frame that is simulated has as many acquisitions as fit into some megabytes of vectors. The clocks of a whole frame:",

@@ -29,6 +29,8 @@ namespace {
 using Files = std::map<std::string, std::string>;
 
 constexpr std::string_view kLicence = "SPDX-License-Identifier: Apache-2.0";
+constexpr int kMostIcarusPixels =
+    4096;  // Icarus Verilog takes minutes for an array of this size, hours for larger ones
 
 std::string source(std::string_view path) {
   const auto files = project_sources();
@@ -362,6 +364,7 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
   FrameVectors vectors = source_vectors(array, photons);
   const PoolSchedule schedule(sensor.acquisitions, request.parameters.pool);
   const bool pool = is_pool_readout(request.parameters.readout);
+  const bool small = sensor.columns * sensor.rows <= kMostIcarusPixels;
   const CodeGate gate = request.parameters.time_gate.value_or(CodeGate{0, request.parameters.no_detection()});
   const std::uint64_t clocks =
       predicted_frame_clocks(request.parameters, sensor.rows, sensor.columns, sensor.acquisitions);
@@ -391,6 +394,11 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
       {"SCENE", std::string(scene_name(request.scene))},
       {"KLUX", fmt::format("{:g}", request.klux)},
       {"PAIRS", pool ? "bench/pairs.vlt " : ""},
+      {"CHECKS", small ? "icarus verilator driver" : "verilator driver"},
+      {"PASSED", small ? "icarus, verilator, driver" : "verilator, driver"},
+      {"SIMULATORS", small ? "Icarus Verilog and in Verilator"
+                           : "Verilator (`make icarus` does the same in Icarus Verilog, which is slow for an "
+                             "array of this size)"},
       {"COMMAND", request.command}};
   if (pool) {
     files["bench/pairs.vlt"] = source("tb_cpp/rtl/pairs.vlt");

@@ -21,7 +21,7 @@ class Products(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
 
-    def made(self, icarus: str = BENCH, verilator: str = BENCH, said: str = products.PASSED, report: str = f"{FRAME}\n| NP | 8 |\n") -> Product:
+    def made(self, icarus: str = BENCH, verilator: str = BENCH, said: str = "PASS: icarus, verilator, driver\n", report: str = f"{FRAME}\n| NP | 8 |\n") -> Product:
         """The product of a sensor, with a program and a make that only write these texts."""
         def run(command: list[str], _log: Path) -> str:
             folder = self.folder / "small"
@@ -40,8 +40,12 @@ class Products(unittest.TestCase):
         one = self.made()
         self.assertEqual((one.columns, one.rows, one.bits, one.acquisitions, one.results, one.frame), (8, 6, 8, 3333, 48, FRAME))
 
+    def test_a_large_product_is_simulated_in_verilator_alone(self) -> None:
+        one = self.made(icarus="", said="PASS: verilator, driver\n")
+        self.assertEqual((one.simulators, one.results), ("Verilator", 48))
+
     def test_a_product_that_proves_nothing_is_refused(self) -> None:
-        for changes, message in (({"said": "PASS: icarus"}, "does not say"), ({"icarus": "PASS\n"}, "does not say what it has compared"),
+        for changes, message in (({"said": "PASS: icarus\n"}, "does not say"), ({"icarus": "PASS\n"}, "does not say what it has compared"),
                                  ({"verilator": BENCH.replace("48", "47")}, "different frames"), ({"report": FRAME + "\n"}, "has no NP")):
             with self.assertRaisesRegex(ProductError, message):
                 self.made(**changes)
@@ -52,7 +56,7 @@ class Products(unittest.TestCase):
 
     def test_the_page_has_a_row_for_each_product(self) -> None:
         text = products.page([self.made()])
-        self.assertIn("| small one (`small`) | 8 x 6 | 8 | hispointer | 3,333 | 48 | ", text)
+        self.assertIn("| small one (`small`) | 8 x 6 | 8 | hispointer | 3,333 | 48 | Icarus Verilog and Verilator | ", text)
         self.assertIn(f"* `small`, {FRAME}", text)
 
     def test_sensors_are_files_or_presets_and_differ(self) -> None:

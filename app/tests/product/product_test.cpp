@@ -246,6 +246,19 @@ TEST(ProductFiles, RefuseWhatTheSubsystemCannotBe) {
   EXPECT_THAT([&] { (void)product_files(lengthy); }, ThrowsMessage<InputError>(HasSubstr("to 65535")));
 }
 
+TEST(ProductFiles, OfALargeArrayLeaveIcarusVerilogOutOfMake) {
+  ProductRequest made = request(Readout::kEzPointer);
+  made.vector_acquisitions = 1;
+  made.sensor.columns = 64;
+  made.sensor.rows = 64;
+  EXPECT_THAT(product_files(made).at("Makefile"), HasSubstr("\nall: icarus verilator driver\n"));
+  made.sensor.rows = 65;
+  const auto files = product_files(made);
+  EXPECT_THAT(files.at("Makefile"), HasSubstr("\nall: verilator driver\n"));
+  EXPECT_THAT(files.at("Makefile"), HasSubstr("PASS: verilator, driver"));
+  EXPECT_THAT(files.at("README.md"), HasSubstr("`make icarus` does the same"));
+}
+
 TEST(ProductFiles, NameEachOther) {
   const std::map<std::string, std::string> files = product_files(request(Readout::kPoolPointerLean));
   for (const char* list : {"product.f", "dtof_product.core", "Bender.yml"}) {
