@@ -17,7 +17,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 
@@ -26,7 +26,7 @@ from . import technology as technologies
 from .batch import Job
 from .configuration import Configuration
 from .errors import FlowError
-from .run import TARGET_MHZ, Result
+from .run import TARGET_MHZ, Result, Technology
 
 from figures.small import is_small, written_root
 
@@ -54,9 +54,9 @@ class Row:
     stages: int
     area: float
     fmax_slow: float
-    slack_margins: float
+    slack_margins: float | None  # None: only the slow corner was timed
     half_width: float  # the longest way from the shared logic to a column
-    power: float
+    power: float | None
     frame_clocks: int
     acquisitions: int
     model_s: float
@@ -83,9 +83,19 @@ def arrays(named: dict[str, Configuration], sizes: Iterable[tuple[int, int]]) ->
     return [array(named[readout], columns, rows) for columns, rows in sizes for readout in READOUTS]
 
 
-def jobs(items: Iterable[Configuration]) -> list[Job]:
-    """Mapped once: a second attempt brings some hundredths of a nanosecond, and takes as long as the first one."""
-    return [Job(item, most_attempts=1) for item in items]
+def synthesised(item: Configuration, kit: Technology, say: Callable[[str], None]) -> Result:
+    """The array, mapped once: a second attempt brings some hundredths of a nanosecond, and takes as long as the first one. If a tool fails in a
+    further corner, the result has the slow corner alone, without margins and power."""
+    def run(job: Job) -> Result:
+        return batch.run_all([job], kit, BUILD / "runs", 1, lambda _: None)[job.name]
+
+    try:
+        result = run(Job(item, most_attempts=1))
+    except FlowError as error:
+        say(f"{error}; goes on with the slow corner alone")
+        result = run(Job(item, ("slow",), most_attempts=1))
+    say(f"{item.name}: {result.total_mm2:.2f} mm2, {result.timing['slow'].fmax_mhz:.0f} MHz")
+    return result
 
 
 # ---- Frames and simulation ----------------------------------------------------------------------------------
@@ -179,11 +189,9 @@ def row(item: Configuration, result: Result, program: Path, folder: Path, text: 
         found[engine] = extrapolated(seconds, columns)
         say(f"{item.name}: {engine}: " + ", ".join(f"{strip} columns in {value:.1f} s" for strip, value in seconds.items()))
     slow = result.timing["slow"]
-    power = result.power
-    if power is None:
-        raise FlowError(f"{item.name}: no power")
-    return Row(item.title, columns, rows, item["BROADCAST_STAGES"], result.total_mm2, slow.fmax_mhz, result.margins["slow"].slack,
-               columns * floorplan.PITCH_UM / 2000, power.total, clocks, ACQUISITIONS, *found["model"], *found["rtl"], memory,
+    margins = result.margins.get("slow")
+    return Row(item.title, columns, rows, item["BROADCAST_STAGES"], result.total_mm2, slow.fmax_mhz, margins.slack if margins else None,
+               columns * floorplan.PITCH_UM / 2000, result.power.total if result.power else None, clocks, ACQUISITIONS, *found["model"], *found["rtl"], memory,
                limit)
 
 
@@ -192,7 +200,7 @@ def table(rows: Iterable[Row]) -> str:
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow([one.name for one in fields(Row)])
-    writer.writerows([f"{value:.6g}" if isinstance(value, float) else value for value in astuple(one)] for one in rows)
+    writer.writerows([f"{value:.6g}" if isinstance(value, float) else "" if value is None else value for value in astuple(one)] for one in rows)
     return out.getvalue()
 
 
@@ -201,7 +209,7 @@ def _limits(rows: list[Row]) -> list[str]:
     lines = []
     for one in rows:
         name = f"{one.readout}, {one.columns} x {one.rows}"
-        if one.slack_margins < 0:
+        if one.slack_margins is not None and one.slack_margins < 0:
             wires = 1000 * one.half_width / one.stages > STAGE_UM
             lines.append(f"* {name}: {one.slack_margins:.2f} ns of slack with margins, {one.fmax_slow:.0f} MHz. " + (
                 "The wires of the broadcast are too long. BROADCAST_STAGES has its largest value: use several narrower arrays." if wires else
@@ -214,8 +222,10 @@ def _limits(rows: list[Row]) -> list[str]:
 def report(rows: list[Row]) -> str:
     def cells(one: Row) -> str:
         pixels = one.columns * one.rows
+        slack = "-" if one.slack_margins is None else f"{one.slack_margins:+.2f}"
+        power = "-" if one.power is None else f"{one.power:.0f}"
         return (f"| {one.readout} | {one.columns} x {one.rows} | {one.area:.2f} | {1e6 * one.area / pixels:.0f} | {one.stages} | {one.half_width:.1f} | "
-                f"{one.fmax_slow:.0f} | {one.slack_margins:+.2f} | {one.power:.0f} | {one.frame_clocks:,} | {1e6 * TARGET_MHZ / one.frame_clocks:.0f} |")
+                f"{one.fmax_slow:.0f} | {slack} | {power} | {one.frame_clocks:,} | {1e6 * TARGET_MHZ / one.frame_clocks:.0f} |")
 
     def simulated(one: Row) -> str:
         errors = [f"{error:.0%}" if error else "-" for error in (one.model_error, one.rtl_error)]
@@ -244,6 +254,8 @@ def report(rows: list[Row]) -> str:
         "* Longest way: from the shared logic in the middle to the outermost column; columns are 0.025 mm wide.",
         "* mW: at 330 MHz in the typical corner with the activity that the synthesis assumes, not that of a scene. Compare the rows with each other, and "
         "not with [power.md](power.md).",
+        *(["* -: OpenSTA crashed in another corner than the slow one, so that there are neither margins nor power."]
+          if any(one.power is None for one in rows) else []),
         "",
         "## Simulation",
         "",
@@ -266,7 +278,8 @@ def main() -> int:
             raise FlowError(f"{PROGRAM}: `make` builds it")
         items = arrays(configuration.load(ROOT / "configurations.toml"), SMALL_SIZES if is_small() else SIZES)
         kit = technologies.prepare(ROOT, BUILD / "generic40", [], more=items)
-        results = batch.run_all(jobs(items), kit, BUILD / "runs", arguments.jobs, _say)
+        with ThreadPoolExecutor(arguments.jobs) as pool:
+            results = dict(zip((item.name for item in items), pool.map(lambda item: synthesised(item, kit, _say), items), strict=True))
         text = subprocess.run([str(PROGRAM), "sensor", "thesis"], capture_output=True, text=True, check=True).stdout
         rows = [row(item, results[item.name], PROGRAM, BUILD / "frames", text, _say) for item in items]
         reports = written_root(ROOT) / "reports"

@@ -9,6 +9,7 @@ import sys
 import unittest
 from dataclasses import replace
 from pathlib import Path
+from unittest import mock
 
 from dtof_synth import configuration, scale
 from dtof_synth.errors import FlowError
@@ -39,6 +40,24 @@ class Arrays(unittest.TestCase):
         self.assertEqual(scale.sensor(SENSOR, 64, 50), SENSOR.replace("200", "64").replace("160", "50"))
         with self.assertRaisesRegex(FlowError, "no line 'rows = '"):
             scale.sensor(SENSOR.replace("rows", "lines"), 64, 50)
+
+
+class Synthesis(unittest.TestCase):
+    def test_a_tool_that_fails_in_one_corner_leaves_the_slow_one(self) -> None:
+        asked: list[tuple] = []
+        said: list[str] = []
+        found = mock.Mock(total_mm2=1.0, timing={"slow": mock.Mock(fmax_mhz=300.0)})
+
+        def run_all(jobs: list, *_: object) -> dict:
+            asked.append(jobs[0].corners)
+            if len(asked) == 1:
+                raise FlowError("fast corner: OpenSTA: stopped")
+            return {jobs[0].name: found}
+
+        with mock.patch.object(scale.batch, "run_all", run_all):
+            self.assertIs(scale.synthesised(NAMED["ezpointer"], mock.Mock(), said.append), found)
+        self.assertEqual(asked, [scale.batch.BOTH_CORNERS, ("slow",)])
+        self.assertIn("OpenSTA: stopped; goes on with the slow corner alone", said[0])
 
 
 class Simulation(unittest.TestCase):
@@ -97,6 +116,13 @@ class Page(unittest.TestCase):
         self.assertIn("No array misses the clock or the frame rate.", text)
         self.assertIn("| ezPointer | 640 x 480 | 5.00 | 16 | 6 | 8.0 | 335 | +0.01 | 200 | 3,300,000 | 100 |", text)
         self.assertIn("| ezPointer | 640 x 480 | 10.0 | 2% | 50.0 | 10% | 80 |", text)
+
+    def test_an_array_without_power_says_so(self) -> None:
+        text = scale.report([replace(ROW, slack_margins=None, power=None)])
+        self.assertIn("| 335 | - | - | 3,300,000 |", text)
+        self.assertIn("OpenSTA crashed", text)
+        self.assertNotIn("crashed", scale.report([ROW]))
+        self.assertIn(",335,,8,,", scale.table([replace(ROW, slack_margins=None, power=None)]))
 
     def test_what_limits_an_array_has_a_line(self) -> None:
         inside = replace(ROW, slack_margins=-0.2)
