@@ -264,8 +264,8 @@ class Playground(unittest.TestCase):
     def test_what_cannot_be_is_refused(self) -> None:
         self.browser.open(PAGE)
         self.wait()
-        for settings, sentence in (({"scene": "flat", "distance": 9}, "One of the settings is outside its limits."),
-                                   ({"distance": 1, "seed": "1.5"}, "One of the settings is outside its limits.")):
+        for settings, sentence in (({"scene": "flat", "distance": 9}, "Distance, m: 9 is no number from 0.05 to 6.74."),
+                                   ({"distance": 1, "seed": "1.5"}, "Seed: 1.5 is no whole number from 0 to 9007199254740991.")):
             self.set(settings)
             self.assertEqual(self.wait(), "failed")
             self.assertEqual(self.status(), sentence)

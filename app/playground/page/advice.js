@@ -66,7 +66,7 @@ const adviserEvents = (asked) => ({
 /** Asks for advice; what was asked before is given up. */
 function advise() {
   if (!adviceForm.reportValidity() || !form.seed.reportValidity()) {
-    sayAdvice("One of the limits is outside its range.", true);
+    sayAdvice(wrongField(adviceForm) || wrongField(form), true);
     return;
   }
   if (adviser) {
@@ -83,11 +83,8 @@ adviceForm.onsubmit = (event) => {
   event.preventDefault();
   advise();
 };
-byId("type-preset").onclick = () => {
-  restartWorker(() => worker.postMessage({ what: "preset", name: form.sensor.value }));
-  hear.preset = ({ text }) => {
-    byId("typed").value = text;
-    run();
-  };
+byId("type-preset").onclick = async () => {
+  byId("typed").value = (await askModels({ what: "preset", name: form.sensor.value })).text;
 };
-byId("type-use").onclick = () => askSensor({ name: "typed.toml", text: byId("typed").value });
+byId("type-use").onclick = () => askSensor({ name: "typed.toml", text: byId("typed").value })
+  .then((sensor) => give({ sensor }), ({ message }) => fail(message.startsWith("typed.toml:") ? message : `typed.toml: ${message}`));

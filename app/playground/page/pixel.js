@@ -7,11 +7,11 @@ const BARS = 128;
 const STEPS = 64, POOL_STEPS = 24;  // of a trace; a pool read-out reads a whole engine for each
 const CELLS = 128;  // of candidates, over the range
 const FEWEST_PIXELS = 60;  // of a phase that has its name above the trace
-const watched = { pixel: null, next: null, waiting: false, counts: [], states: [], trace: 0 };
+const watched = { ready: false, pixel: null, next: null, waiting: false, counts: [], states: [], trace: 0 };
 
 /** Asks the models for a pixel; the last one that was pointed at while they were busy comes next. */
 function watchPixel(column, row) {
-  if (document.body.dataset.state !== "done") {
+  if (!watched.ready) {
     return;
   }
   watched.next = { column, row };
