@@ -36,10 +36,10 @@ const createModels = async () => {
   const functions = {
     catalogue: () => "readout\\tfirst\\tFirst\\treads too far\\nreadout\\tpoolpointer\\tPool\\treads as far as the second\\n" +
       "readout\\tsecond\\tSecond\\treads too near\\nscene\\troom\\ta room\\n" +
-      "scene\\tflat\\ta wall\\nsensor\\tthesis\\t16\\t8\\t0.5\\t100\\t6.75\\t10\\t2\\t45\\n",
+      "scene\\tflat\\ta wall\\nsensor\\tthesis\\t16\\t8\\t0.5\\t100\\t6.75\\t10\\t2\\t45\\t0.25\\n",
     take_sensor: (name, text) => {
       sentence = text.includes("wrong") ? `${name}:1: wrong` : "";
-      sensor = text === "" ? "" : `sensor\\t${name}\\t${text.includes("odd") ? "33\\t7" : "32\\t8"}\\t0.25\\t77\\t3.5\\t9\\t1\\t23.3\\n`;
+      sensor = text === "" ? "" : `sensor\\t${name}\\t${text.includes("odd") ? "33\\t7" : "32\\t8"}\\t0.25\\t77\\t3.5\\t9\\t1\\t23.3\\t0.1\\n`;
       return sentence === "" ? 1 : 0;
     },
     sensor: () => sensor,

@@ -155,14 +155,14 @@ class InTheBrowser(InPlayground):
             self.point_at("#cards article:nth-of-type(2) canvas", 6, 2)
             self.assertEqual(self.states(64)[:2], [[2, 8.5], [3, 12.5]])
             self.assertEqual(self.states(64)[-1], [100, 400.5])
-            self.assertRegex(self.traced(), r"^After 100 acquisitions: at 2.64 m \(code 400.5\), confidence 5\. Each step")
+            self.assertRegex(self.traced(), r"^After 100 acquisitions: at 2.39 m \(code 400.5\), confidence 5\. Blue: ")
             self.browser.evaluate("(l => { l.value = 'poolpointer'; l.dispatchEvent(new Event('input')); })(document.getElementById('trace-readout'))")
             self.states(24)
-            self.assertIn("rival at 1.98 m; candidates (score): 0.84 m (100), 3.38 m (1).", self.traced())
+            self.assertIn("rival at 1.73 m; candidates (score): 0.59 m (100), 3.13 m (1).", self.traced())
             self.browser.screenshot(SCREENSHOTS / f"playground_trace_{width}.png", whole=False)
             self.browser.evaluate("(s => { s.value = 500; s.dispatchEvent(new Event('input', {bubbles: true})); })"
                                   "(document.getElementById('watch-time'))")
-            self.assertRegex(self.traced(), r"^After 50 acquisitions: at 1.32 m \(code 200.5\)")
+            self.assertRegex(self.traced(), r"^After 50 acquisitions: at 1.07 m \(code 200.5\)")
             self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
             self.browser.evaluate("document.getElementById('watch-time').value = 1000")
 

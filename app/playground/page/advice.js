@@ -57,7 +57,7 @@ const adviserEvents = (asked) => ({
     document.body.dataset.advice = "done";
   },
   failed({ sentence }) {
-    byId("advice-progress").value = 0;
+    byId("advice-progress").hidden = true;
     byId("advice").hidden = true;
     sayAdvice(sentence, true);
   },
@@ -74,8 +74,9 @@ function advise() {
   }
   const asked = adviceRequest();
   const events = adviserEvents(asked);
+  byId("advice-progress").hidden = false;
   byId("advice-progress").removeAttribute("value");
-  sayAdvice("Estimating every set of parameters ...");
+  sayAdvice(`Estimating every set of parameters for ${asked.name} ...`);
   adviser = makeWorker((message) => events[message.what](message), (sentence) => events.failed({ sentence }));
 }
 

@@ -289,17 +289,16 @@ const hear = {
 
 // ---- Results --------------------------------------------------------------------------------------------
 
-/** A map with the values of the pixel that is pointed at. */
-function map(values, colour, label, describe) {
-  const canvas = make("canvas", "", [], { width: scene.columns, height: scene.rows, role: "img", "aria-label": label });
+/** A map with the values of the pixel that is pointed at. `title` says of what, to those who do not see it. */
+function map(values, colour, title, label, describe) {
+  const canvas = make("canvas", "", [], { width: scene.columns, height: scene.rows, role: "img", "aria-label": `${title}: ${label}` });
   paint(canvas, values, colour);
   canvas.onpointermove = canvas.onpointerdown = (event) => {
     const box = canvas.getBoundingClientRect();
     const column = Math.floor((event.clientX - box.left) / box.width * scene.columns);
     const row = Math.floor((event.clientY - box.top) / box.height * scene.rows);
     if (column >= 0 && row >= 0 && column < scene.columns && row < scene.rows) {
-      byId("pixel").textContent = `Column ${column}, row ${row}: ${describe(row * scene.columns + column)}`;
-      watchPixel(column, row);
+      showPixel(column, row, describe);
     }
   };
   return make("figure", "", [canvas, make("figcaption", label)]);
@@ -331,7 +330,7 @@ function recordingCard(brightest) {
   return make("article", "", [
     make("h3", "The recording"),
     make("p", sceneSummary(), [], { class: "hint" }),
-    make("div", "", [map(scene.brightness, (value) => grey(value / Math.max(brightest, 1)), `detections, black 0, white ${brightest}`,
+    make("div", "", [map(scene.brightness, (value) => grey(value / Math.max(brightest, 1)), "The recording", `detections, black 0, white ${brightest}`,
       (i) => `${scene.brightness[i]} detections`)], { class: "maps" }),
     make("dl", "", [["pixels", `${scene.columns} x ${scene.rows}`], ["detections", detections.toLocaleString("en")]].map(([name, value]) =>
       make("div", "", [make("dt", name), make("dd", value)]))),
@@ -346,13 +345,20 @@ function sceneCard(brightest) {
     make("h3", "The scene"),
     make("p", sceneSummary(), [], { class: "hint" }),
     make("div", "", [
-      map(scene.truth, depthColour, "depth", describeTruth),
-      map(scene.brightness, (value) => grey(value / brightest), `reflectivity, black 0, white ${brightest.toFixed(2)}`, describeTruth),
+      map(scene.truth, depthColour, "The scene", "depth", describeTruth),
+      map(scene.brightness, (value) => grey(value / brightest), "The scene", `reflectivity, black 0, white ${brightest.toFixed(2)}`, describeTruth),
     ], { class: "maps" }),
     make("dl", "", [["nearest", metres(distances[0])], ["middle", metres(distances[distances.length >> 1])],
       ["farthest", metres(distances[distances.length - 1])]].map(([name, value]) =>
       make("div", "", [make("dt", name), make("dd", value)]))),
   ]);
+}
+
+/** Links to the parts of the page that are there. */
+function showParts() {
+  for (const link of document.querySelectorAll("#state [data-part]")) {
+    link.hidden = byId(link.dataset.part).hidden;
+  }
 }
 
 /** Without true distances, the colours span what was measured, but for the nearest and the farthest 2 %. */
@@ -368,7 +374,6 @@ function show() {
   if (scene.recorded) {
     spanMeasured();
   }
-  const depthMap = (values, describe) => map(values, depthColour, "depth", describe);
   const brightest = scene.brightness.reduce((most, value) => Math.max(most, value), 0);
   const cards = [scene.recorded ? recordingCard(brightest) : sceneCard(brightest)];
   byId("error-ramp").hidden = scene.recorded;
@@ -381,7 +386,8 @@ function show() {
     cards.push(make("article", "", [
       make("h3", title),
       make("p", summary, [], { class: "hint" }),
-      make("div", "", [depthMap(frame.depth, describe), ...scene.recorded ? [] : [map(frame.error, errorColour, "error", describe)]], { class: "maps" }),
+      make("div", "", [map(frame.depth, depthColour, title, "depth", describe),
+        ...scene.recorded ? [] : [map(frame.error, errorColour, title, "error", describe)]], { class: "maps" }),
       make("dl", "", figures.map(([name, value]) => make("div", "", [make("dt", name), make("dd", value)]))),
     ], { "data-readout": frame.readout, style: `border-top: 0.3rem solid ${cost.readouts[frame.readout]?.colour ?? "var(--line)"}` }));
     const bits = cost.readouts[frame.readout]?.bits ?? "-";
@@ -399,6 +405,7 @@ function show() {
   showComparison();
   forgetPixel();
   byId("shown").hidden = false;
+  showParts();
   byId("shown").classList.remove("stale");
 }
 
