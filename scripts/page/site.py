@@ -331,7 +331,7 @@ class Site:
             parts.append('<p class="missing">Not measured yet.</p>')
         elif live:
             parts.append('<div class="choices"></div><p class="none" hidden>No read-out or no light is chosen that has figures here.</p>'
-                         f'<div class="live {plot.kind}" hidden><canvas></canvas><div class="tip" role="status" hidden></div></div>')
+                         f'<div class="wide"><div class="live {plot.kind}" hidden><canvas></canvas><div class="tip" role="status" hidden></div></div></div>')
         elif plot.picture and picture.is_file():
             address = html.escape(self.copied(picture, PLOTS))
             parts.append(f'<a class="picture" href="{address}"><img src="{address}" alt="{html.escape(plot.title)}"></a>')
@@ -373,10 +373,12 @@ class Site:
         return problems(self.out)
 
     def write_playground(self) -> None:
-        """Copies the playground as it was built, with a link back to the start page."""
+        """Copies the playground as it was built, with links to the other pages."""
         text = self.playground.read_text(encoding="utf-8")
         self.index.add(PLAYGROUND, "Playground", text)
-        text = text.replace("<main>", f'<main>\n<p class="hint"><a href="index.html">{NAME}</a></p>', 1)
+        links = " ".join(f'<a href="{entry.page}"{" aria-current=page" if entry.page == PLAYGROUND else ""}>{html.escape(entry.title)}</a>'
+                         for entry in self.entries)
+        text = text.replace("<main>", f'<main>\n<nav class="pages" aria-label="Pages"><strong>{NAME}</strong> {links}</nav>', 1)
         (self.out / PLAYGROUND).write_text(text, encoding="utf-8")
 
     def write_document(self, path: Path) -> None:

@@ -45,7 +45,9 @@ class Building(unittest.TestCase):
                 self.assertEqual([line for line in wrong if "playground" in line], [])
                 self.assertEqual((root / "out/playground.html").is_file(), there)
                 if there:
-                    self.assertIn('<a href="index.html">', (root / "out/playground.html").read_text(encoding="utf-8"))
+                    text = (root / "out/playground.html").read_text(encoding="utf-8")
+                    for link in ('<a href="index.html">Start</a>', '<a href="plots.html">Plots</a>', '<a href="playground.html" aria-current=page>'):
+                        self.assertIn(link, text)
                 self.assertEqual("Drop a sensor file" in (root / "out/search_index.js").read_text(encoding="utf-8"), there)
                 self.assertEqual('href="playground.html"' in (root / "out/index.html").read_text(encoding="utf-8"), there)
 
