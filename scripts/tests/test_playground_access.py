@@ -125,6 +125,21 @@ class Access(InPlayground):
         self.assertTrue(place, "no line")
         self.assertAlmostEqual(sum(place) / len(place), (1.6 + 0.25) / 6.75, 2)
 
+    def test_the_frame_is_played(self) -> None:
+        self.show()
+        self.pick(6, 2)
+        self.browser.evaluate("window.seen = []; (drawn => { paintTrace = () => { seen.push(Number(byId('watch-time').value)); drawn(); }; })(paintTrace); byId('watch-play').click()")
+        self.assertEqual(self.browser.evaluate("byId('watch-play').textContent"), "stop")
+        self.wait_for("playing === 0")
+        seen = self.browser.evaluate("seen")
+        self.assertGreater(len(seen), 20)
+        self.assertEqual(seen, sorted(seen))
+        self.assertLess(seen[0], 100)
+        self.assertEqual((seen[-1], self.browser.evaluate("byId('watch-play').textContent")), (1000, "play the frame"))
+        self.browser.evaluate("byId('watch-play').click()")
+        self.key("Escape")
+        self.assertEqual(self.browser.evaluate("playing"), 0)
+
     def test_a_trace_says_how_far_it_is(self) -> None:
         self.show()
         self.pick(6, 2)

@@ -47,6 +47,7 @@ function askPixel() {
 
 /** After a run nothing is known of its pixels yet. */
 function forgetPixel() {
+  stopPlaying();
   Object.assign(watched, { pixel: null, next: null, waiting: false, counts: [], states: [], trace: watched.trace + 1 });
   byId("watch").hidden = true;
   [byId("pick-column").max, byId("pick-row").max] = [scene.columns - 1, scene.rows - 1];
@@ -212,7 +213,39 @@ byId("watch-time").oninput = () => {
   paintTrace();
 };
 byId("trace-readout").oninput = startTrace;
-const closePixel = () => { byId("watch").hidden = true; };
+
+// ---- The frame as it goes on ----------------------------------------------------------------------------------------
+
+const PLAY_MS = 4000, PLAY_STEP_MS = 50;  // of a whole frame, and between two of its pictures
+let playing = 0;  // the timer; 0: none
+
+function stopPlaying() {
+  clearInterval(playing);
+  playing = 0;
+  byId("watch-play").textContent = "play the frame";
+}
+
+/** Moves the slider from the frame's begin, or from where it stopped, to the end. */
+function play() {
+  const time = byId("watch-time");
+  time.value = time.value === time.max ? 0 : time.value;
+  byId("watch-play").textContent = "stop";
+  playing = setInterval(() => {
+    time.value = Number(time.value) + time.max * PLAY_STEP_MS / PLAY_MS;
+    time.oninput();
+    if (time.value === time.max) {
+      stopPlaying();
+    }
+  }, PLAY_STEP_MS);
+}
+
+byId("watch-play").onclick = () => playing === 0 ? play() : stopPlaying();
+
+function closePixel() {
+  stopPlaying();
+  byId("watch").hidden = true;
+}
+
 byId("watch-close").onclick = closePixel;
 document.addEventListener("keydown", (event) => {
   if (event.key === "Escape") {
