@@ -262,8 +262,8 @@ class Playground(unittest.TestCase):
         self.set({"seed": 3}, ["ezpointer", "hispointer", "poolpointer"])
         self.assertEqual(self.wait(), "done", self.status())
         with tempfile.TemporaryDirectory() as folder:
-            for source, name, options, pixels in (("ams_tmf8829_log.json.gz", "tmf8829.npz", [], 26 * 16),
-                                                  ("shin2016_two_layer_photon_times.mat", "shin.csv", ["--acquisitions", "400"], 10000)):
+            for source, name, options, pixels in (("ams_tmf8829_log.json.gz", "tmf8829.npz", (), 26 * 16),
+                                                  ("shin2016_two_layer_photon_times.mat", "shin.csv", ("--acquisitions", "400"), 10000)):
                 recording = Path(folder) / name
                 subprocess.run(["build/cpp/bin/dtof", "convert", str(SHARED / source), str(recording), *options], cwd=ROOT, check=True,
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

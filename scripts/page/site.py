@@ -303,8 +303,9 @@ class Site:
         live = self.library.script is not None
         body = ["<h1>Plots</h1>"]
         if live:
-            body += ["<p>Move the mouse over a mark, or touch the mark, to see its figure and the command that made it. In plots without "
-                     'lines, hollow marks are at 50 klux.</p>', '<div class="filtered"><form id="filters" hidden></form><div>']
+            body += ["<p>Move the mouse over a mark, touch it, or go from mark to mark with the arrow keys, to see its figure and the command that made it. "
+                     "The list has the marks of plots with lines; in plots without lines, hollow marks are at 50 klux.</p>",
+                     '<div class="filtered"><form id="filters" hidden></form><div>']
         else:
             body.append(f'<p class="missing">The plots of this page are pictures, because the plotting library ({LIBRARY}) is missing: '
                         f"{html.escape(self.library.why_not)}.</p>")

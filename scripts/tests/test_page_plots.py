@@ -333,6 +333,10 @@ class InTheBrowser(Shown):
         chips = self.browser.evaluate("[...document.querySelectorAll('#filters .chip')].map(c => c.toDataURL())")
         self.assertEqual(len(set(chips)), len(chips))
         self.assertGreater(len(chips), 10)
+        middles = self.browser.evaluate("Object.fromEntries([...document.querySelectorAll('#filters .chip')].map(c => [c.parentNode.textContent, '#' + "
+                                        "[...c.getContext('2d').getImageData(10, 10, 1, 1).data.slice(0, 3)].map(v => v.toString(16).padStart(2, '0')).join('')]))")
+        fills = self.browser.evaluate("charts.light.data.datasets.filter(s => !/cross|star/.test(s.pointStyle)).map(s => [s.label, s.pointBackgroundColor])")
+        self.assertEqual({label: middles[label] for label, _ in fills if label in middles}, {label: fill for label, fill in fills if label in middles})
 
     def test_on_a_phone_what_is_wide_scrolls_and_stays_readable(self) -> None:
         self.show(*SIZES[0])

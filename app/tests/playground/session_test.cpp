@@ -166,8 +166,8 @@ TEST(PlaygroundSession, RefusesFilesThatCannotBe) {
   const PlaygroundFiles dark{.map_name = "a.npy", .map_columns = 2, .map_rows = 1, .map_m = {0.0F, 0.0F}};
   EXPECT_THAT(with(dark), ThrowsMessage<InputError>("a.npy: no pixel has a distance"));
   const PlaygroundFiles far{.map_name = "a.npy", .map_columns = 2, .map_rows = 1, .map_m = {0.0F, 20.0F}};
-  EXPECT_THAT(with(far),
-              ThrowsMessage<InputError>(HasSubstr("a.npy: every pixel is beyond the sensor's range, 6.75 m")));
+  EXPECT_THAT(with(far), ThrowsMessage<InputError>(
+                             HasSubstr("a.npy: every pixel is beyond the sensor's range, 6.75 m")));
 }
 
 TEST(PlaygroundSession, RefusesWhatCannotBe) {
