@@ -124,6 +124,14 @@ class Advice(unittest.TestCase):
         self.assertIn("Recommended: Pool. typed.toml: frame-rate 30", self.text("advice-says"))
         self.assertIn("--sensor typed.toml --quick", self.text("advice-command"))
 
+    def test_a_typed_sensor_is_advised_on_without_a_second_button(self) -> None:
+        self.browser.evaluate("document.querySelector('#advise details').open = true; byId('typed').value = 'columns = 32'")
+        self.assertEqual(self.ask(), "done")
+        self.assertIn("Recommended: Pool. typed.toml: frame-rate 30", self.text("advice-says"))
+        self.browser.evaluate("byId('typed').value = 'wrong'")
+        self.assertEqual(self.ask(), "failed")
+        self.assertEqual((self.text("advice-status"), self.text("status")), 2 * ("typed.toml:1: wrong",))
+
     def test_frames_are_read_while_advice_is_computed(self) -> None:
         self.browser.evaluate("byId('ask').click(); form.seed.value = 2; delete document.body.dataset.state; form.requestSubmit()")
         self.assertEqual((self.wait("state"), self.wait("advice")), ("done", "done"))

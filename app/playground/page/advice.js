@@ -80,12 +80,37 @@ function advise() {
   adviser = makeWorker((message) => events[message.what](message), (sentence) => events.failed({ sentence }));
 }
 
-adviceForm.onsubmit = (event) => {
+// ---- A typed sensor -------------------------------------------------------------------------------------------------
+
+let presetText = "";  // what the text began with
+
+/** True if a sensor was typed that is not yet the sensor. */
+function typedIsNew() {
+  const { value } = byId("typed");
+  return byId("typed").closest("details").open && value.trim() !== "" && value !== presetText && value !== given.sensor?.text;
+}
+
+/** Makes the typed sensor the sensor; the answer says whether that is possible. */
+async function useTyped() {
+  try {
+    give({ sensor: await askSensor({ name: "typed.toml", text: byId("typed").value }) });
+    return true;
+  } catch ({ message }) {
+    const sentence = message.startsWith("typed.toml:") ? message : `typed.toml: ${message}`;
+    fail(sentence);
+    sayAdvice(sentence, true);
+    return false;
+  }
+}
+
+adviceForm.onsubmit = async (event) => {
   event.preventDefault();
-  advise();
+  if (!typedIsNew() || await useTyped()) {
+    advise();
+  }
 };
 byId("type-preset").onclick = async () => {
-  byId("typed").value = (await askModels({ what: "preset", name: form.sensor.value })).text;
+  presetText = (await askModels({ what: "preset", name: form.sensor.value })).text;
+  byId("typed").value = presetText;
 };
-byId("type-use").onclick = () => askSensor({ name: "typed.toml", text: byId("typed").value })
-  .then((sensor) => give({ sensor }), ({ message }) => fail(message.startsWith("typed.toml:") ? message : `typed.toml: ${message}`));
+byId("type-use").onclick = useTyped;
