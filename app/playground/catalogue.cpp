@@ -12,10 +12,10 @@
 namespace dtof {
 
 std::string playground_sensor_line(std::string_view name, const SensorModel& sensor) {
-  return fmt::format("sensor\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{}\t{}\t{:g}\n", name, sensor.columns, sensor.rows,
-                     sensor.default_reflectivity, sensor.acquisitions,
+  return fmt::format("sensor\t{}\t{}\t{}\t{}\t{}\t{:.2f}\t{}\t{}\t{:g}\t{:.4f}\n", name, sensor.columns,
+                     sensor.rows, sensor.default_reflectivity, sensor.acquisitions,
                      0.5 * kSpeedOfLight * sensor.integration_time_s, sensor.np, sensor.slots,
-                     sensor.integration_time_s * 1e9);
+                     sensor.integration_time_s * 1e9, 0.5 * kSpeedOfLight * sensor.pulse_fwhm_s);
 }
 
 std::string playground_catalogue() {

@@ -93,7 +93,8 @@ bool playground_advise(const char* request) {
 }
 const char* playground_advice_text() { return advice.c_str(); }
 /// The depth map that scenes have from now on: its place, for metres row by row. Of 0 columns: none.
-float* playground_take_map(int columns, int rows) {
+float* playground_take_map(int columns, int rows, const char* name) {
+  files.map_name = name;
   files.map_columns = columns;
   files.map_rows = rows;
   files.map_m.assign(

@@ -51,6 +51,9 @@ PhotonSource make_photons(const PlaygroundRequest& request, const PlaygroundFile
                                    request.columns.value_or(sensor.columns),
                                    request.rows.value_or(sensor.rows),
                                    request.reflectivity.value_or(sensor.default_reflectivity));
+  if (files.map_columns != 0) {
+    require_reachable(targets, sensor, files.map_name);
+  }
   return {sensor, targets, request.klux, request.seed};
 }
 

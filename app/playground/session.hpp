@@ -38,6 +38,7 @@ struct PlaygroundRequest {
 struct PlaygroundFiles {
   std::string sensor_name = {};  ///< name of the sensor file, for error messages
   std::string sensor_text = {};  ///< text of the sensor file; empty: use the request's preset
+  std::string map_name = "map";  ///< name of the depth map's file, for error messages
   int map_columns = 0;           ///< columns of a depth map; 0: use the request's scene
   int map_rows = 0;
   std::vector<float> map_m = {};  ///< [row][column], row 0 on top; 0: unknown

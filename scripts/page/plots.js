@@ -29,17 +29,25 @@
     return element;
   }
 
+  /** The mark of a read-out, as the plots with lines draw it. */
+  function chip(readout) {
+    const canvas = make("canvas", { className: "chip", width: 20, height: 20 });
+    const { pointStyle, pointRotation, pointBackgroundColor } = mark(readout, OPEN.includes(readout.marker), 6);
+    const context = canvas.getContext("2d");
+    Object.assign(context, { strokeStyle: readout.colour, fillStyle: pointBackgroundColor });
+    Chart.helpers.drawPoint(context, { pointStyle, rotation: pointRotation, radius: 6, borderWidth: 2 }, 10, 10);
+    canvas.setAttribute("aria-hidden", "true");
+    return canvas;
+  }
+
   function boxes(name, legend, values) {
     const button = (text, on) => make("button", { type: "button", textContent: text, onclick: () => {
       form.querySelectorAll(`[name=${name}]`).forEach((box) => { box.checked = on; });
       draw();
     } });
     return make("fieldset", {}, [make("legend", { textContent: legend }),
-      ...values.map(([value, title, colour]) => {
-        const chip = make("span", { className: "chip" });
-        chip.style.background = colour ?? "transparent";
-        return make("label", {}, [make("input", { type: "checkbox", name, value, checked: true }), ...(colour ? [chip] : []), title]);
-      }), button("all", true), button("none", false)]);
+      ...values.map(([value, title, readout]) => make("label", {}, [make("input", { type: "checkbox", name, value, checked: true }),
+        ...(readout ? [chip(readout)] : []), title])), button("all", true), button("none", false)]);
   }
 
   const chosen = (name) => new Set([...form.querySelectorAll(`[name=${name}]:checked`)].map((box) => box.value));
@@ -172,7 +180,7 @@
 
   function scales(plot) {
     const { measure, log } = settings(plot);
-    const figure = axis(`${measure}, in %`, log, log ? {} : { min: 0 });
+    const figure = axis(`${measure.startsWith("off") ? "pixels " : ""}${measure}, in %`, log, log ? {} : { min: 0 });
     if (plot.kind === "rows") {
       const labels = [...new Set(shown(plot).map((row) => row.x))];
       return { x: figure, y: { type: "category", labels, offset: true, ticks: { autoSkip: false } } };
@@ -203,15 +211,39 @@
     section(plot).querySelector(".choices").append(...choices(plot));
     const canvas = place.querySelector("canvas");
     canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", plot.title);
+    canvas.setAttribute("aria-label", `${plot.title}. Arrow keys go from mark to mark; the report has the figures as tables.`);
     charts[plot.name] = new Chart(canvas, { type: "scatter", data: { datasets: datasets(plot) }, plugins: [bars], options: {
       animation: false, maintainAspectRatio: false, scales: scales(plot), interaction: { mode: "nearest", intersect: true },
       plugins: { legend: { display: false }, tooltip: { enabled: false, external: (context) => tip(plot, context) } } } });
+    followKeys(charts[plot.name]);
+  }
+
+  /** Arrow keys show one mark after the other, as the mouse over a mark does. */
+  function followKeys(chart) {
+    let at = null;
+    const show = (marks) => {
+      chart.tooltip.setActiveElements(marks, { x: 0, y: 0 });
+      chart.update("none");
+    };
+    chart.canvas.tabIndex = 0;
+    chart.canvas.addEventListener("keydown", (event) => {
+      const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+      const marks = chart.data.datasets.flatMap((set, datasetIndex) => set.data.map((_, index) => ({ datasetIndex, index })));
+      if (step && marks.length > 0) {
+        event.preventDefault();
+        at = at === null ? (step > 0 ? 0 : marks.length - 1) : (at + step + marks.length) % marks.length;
+        show([marks[at]]);
+      }
+    });
+    chart.canvas.addEventListener("blur", () => {
+      at = null;
+      show([]);
+    });
   }
 
   Chart.defaults.color = "#1b1f24";
   Chart.defaults.font.size = 13;
-  form.append(boxes("readout", "Read-outs", readouts.map(({ title, colour }) => [title, title, colour])),
+  form.append(boxes("readout", "Read-outs", readouts.map((readout) => [readout.title, readout.title, readout])),
     boxes("light", "Light", lights.map((klux) => [String(klux), `${klux} klux`])));
   form.addEventListener("change", draw);
   form.hidden = false;

@@ -303,8 +303,9 @@ class Site:
         live = self.library.script is not None
         body = ["<h1>Plots</h1>"]
         if live:
-            body += ["<p>Move the mouse over a mark, or touch the mark, to see its figure and the command that made it. In plots without "
-                     'lines, hollow marks are at 50 klux.</p>', '<div class="filtered"><form id="filters" hidden></form><div>']
+            body += ["<p>Move the mouse over a mark, touch it, or go from mark to mark with the arrow keys, to see its figure and the command that made it. "
+                     "The list has the marks of plots with lines; in plots without lines, hollow marks are at 50 klux.</p>",
+                     '<div class="filtered"><form id="filters" hidden></form><div>']
         else:
             body.append(f'<p class="missing">The plots of this page are pictures, because the plotting library ({LIBRARY}) is missing: '
                         f"{html.escape(self.library.why_not)}.</p>")
@@ -331,7 +332,7 @@ class Site:
             parts.append('<p class="missing">Not measured yet.</p>')
         elif live:
             parts.append('<div class="choices"></div><p class="none" hidden>No read-out or no light is chosen that has figures here.</p>'
-                         f'<div class="live {plot.kind}" hidden><canvas></canvas><div class="tip" role="status" hidden></div></div>')
+                         f'<div class="wide"><div class="live {plot.kind}" hidden><canvas></canvas><div class="tip" role="status" hidden></div></div></div>')
         elif plot.picture and picture.is_file():
             address = html.escape(self.copied(picture, PLOTS))
             parts.append(f'<a class="picture" href="{address}"><img src="{address}" alt="{html.escape(plot.title)}"></a>')
@@ -373,10 +374,12 @@ class Site:
         return problems(self.out)
 
     def write_playground(self) -> None:
-        """Copies the playground as it was built, with a link back to the start page."""
+        """Copies the playground as it was built, with links to the other pages."""
         text = self.playground.read_text(encoding="utf-8")
         self.index.add(PLAYGROUND, "Playground", text)
-        text = text.replace("<main>", f'<main>\n<p class="hint"><a href="index.html">{NAME}</a></p>', 1)
+        links = " ".join(f'<a href="{entry.page}"{" aria-current=page" if entry.page == PLAYGROUND else ""}>{html.escape(entry.title)}</a>'
+                         for entry in self.entries)
+        text = text.replace("<main>", f'<main>\n<nav class="pages" aria-label="Pages"><strong>{NAME}</strong> {links}</nav>', 1)
         (self.out / PLAYGROUND).write_text(text, encoding="utf-8")
 
     def write_document(self, path: Path) -> None:

@@ -307,6 +307,46 @@ class InTheBrowser(Shown):
             shown = self.point_at(plot.name, self.sets(plot.name)[0])
             self.assertEqual("Measured before what lies here now." in shown, bool(stale[plot.report]), plot.name)
 
+    def test_keys_go_from_mark_to_mark(self) -> None:
+        tip = "(tip => tip.hidden ? '' : tip.innerText.split('\\n')[0])(document.querySelector('#light .tip'))"
+        for width, height in SIZES:
+            self.show(width, height)
+            self.browser.evaluate("charts.light.canvas.focus()")
+            seen = []
+            for key, code in (("ArrowRight", 39), ("ArrowRight", 39), ("ArrowLeft", 37), ("ArrowLeft", 37)):
+                self.browser.call("Input.dispatchKeyEvent", type="rawKeyDown", key=key, windowsVirtualKeyCode=code)
+                label, index = self.browser.evaluate("(e => [charts.light.data.datasets[e.datasetIndex].label, e.index])(charts.light.tooltip.getActiveElements()[0])")
+                self.assertEqual(self.browser.evaluate(tip), label)
+                seen.append((label, index))
+            first, last = self.sets("light")[0], self.sets("light")[-1]
+            self.assertEqual(seen[:3], [(first, 0), (first, 1), (first, 0)])
+            self.assertEqual(seen[3][0], last)
+            self.browser.evaluate("charts.light.canvas.blur()")
+            self.assertEqual(self.browser.evaluate(tip), "")
+
+    def test_axes_and_marks_are_named(self) -> None:
+        self.show(1440, 900)
+        titles = self.browser.evaluate("Object.values(charts).map(c => ['x', 'y'].map(a => c.options.scales[a].title?.text ?? ''))")
+        above = "pixels off by more than 3 %, in %"
+        self.assertEqual(titles, [["area of 200 x 160 pixels, mm2", above], ["background light, klux", above], [above, ""], ["acquisitions of a frame", above]])
+        # Each read-out's mark in the list differs from all others.
+        chips = self.browser.evaluate("[...document.querySelectorAll('#filters .chip')].map(c => c.toDataURL())")
+        self.assertEqual(len(set(chips)), len(chips))
+        self.assertGreater(len(chips), 10)
+        middles = self.browser.evaluate("Object.fromEntries([...document.querySelectorAll('#filters .chip')].map(c => [c.parentNode.textContent, '#' + "
+                                        "[...c.getContext('2d').getImageData(10, 10, 1, 1).data.slice(0, 3)].map(v => v.toString(16).padStart(2, '0')).join('')]))")
+        fills = self.browser.evaluate("charts.light.data.datasets.filter(s => !/cross|star/.test(s.pointStyle)).map(s => [s.label, s.pointBackgroundColor])")
+        self.assertEqual({label: middles[label] for label, _ in fills if label in middles}, {label: fill for label, fill in fills if label in middles})
+
+    def test_on_a_phone_what_is_wide_scrolls_and_stays_readable(self) -> None:
+        self.show(*SIZES[0])
+        self.assertGreaterEqual(self.browser.evaluate("charts.hostile.width"), 560)
+        self.browser.open(self.out / "index.html")
+        self.assertGreaterEqual(self.browser.evaluate("document.querySelector('.picture img').width"), 700)
+        first = "(c => { c.closest('.scroll').scrollLeft = 200; return c.getBoundingClientRect().left; })(document.querySelector('.figures tbody th'))"
+        self.assertGreaterEqual(self.browser.evaluate(first), 0)
+        self.fits(SIZES[0][0])
+
     def test_screenshots(self) -> None:
         for width, height in SIZES:
             self.show(width, height)

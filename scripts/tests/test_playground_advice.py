@@ -10,7 +10,7 @@ from pathlib import Path
 
 import playground_page
 from tests.browser import Browser, missing
-from tests.test_playground_page import SCREENSHOTS, SECONDS, STAND_IN
+from tests.playground import SCREENSHOTS, SECONDS, STAND_IN
 
 # Lines as playground/advice.hpp has them. The sentence has the request and the sensor, so that a test sees both.
 ADVICE = """
@@ -109,7 +109,7 @@ class Advice(unittest.TestCase):
         self.assertEqual(self.text("advice-status"), "design: no read-out keeps the limits; one of these would do: --max-mm2 0.4 (First)")
         self.assertTrue(self.browser.evaluate("byId('advice').hidden"))
         self.assertEqual(self.ask(max_mm2="-1"), "failed")
-        self.assertEqual(self.text("advice-status"), "One of the limits is outside its range.")
+        self.assertEqual(self.text("advice-status"), "Largest array, mm²: -1 is no number from 0.001 to 1000000.")
 
     def test_a_typed_sensor_is_advised_on(self) -> None:
         self.browser.evaluate("document.querySelector('#advise details').open = true; byId('type-preset').click()")
@@ -123,6 +123,14 @@ class Advice(unittest.TestCase):
         self.assertEqual(self.ask(), "done")
         self.assertIn("Recommended: Pool. typed.toml: frame-rate 30", self.text("advice-says"))
         self.assertIn("--sensor typed.toml --quick", self.text("advice-command"))
+
+    def test_a_typed_sensor_is_advised_on_without_a_second_button(self) -> None:
+        self.browser.evaluate("document.querySelector('#advise details').open = true; byId('typed').value = 'columns = 32'")
+        self.assertEqual(self.ask(), "done")
+        self.assertIn("Recommended: Pool. typed.toml: frame-rate 30", self.text("advice-says"))
+        self.browser.evaluate("byId('typed').value = 'wrong'")
+        self.assertEqual(self.ask(), "failed")
+        self.assertEqual((self.text("advice-status"), self.text("status")), 2 * ("typed.toml:1: wrong",))
 
     def test_frames_are_read_while_advice_is_computed(self) -> None:
         self.browser.evaluate("byId('ask').click(); form.seed.value = 2; delete document.body.dataset.state; form.requestSubmit()")

@@ -57,7 +57,7 @@ const adviserEvents = (asked) => ({
     document.body.dataset.advice = "done";
   },
   failed({ sentence }) {
-    byId("advice-progress").value = 0;
+    byId("advice-progress").hidden = true;
     byId("advice").hidden = true;
     sayAdvice(sentence, true);
   },
@@ -66,7 +66,7 @@ const adviserEvents = (asked) => ({
 /** Asks for advice; what was asked before is given up. */
 function advise() {
   if (!adviceForm.reportValidity() || !form.seed.reportValidity()) {
-    sayAdvice("One of the limits is outside its range.", true);
+    sayAdvice(wrongField(adviceForm) || wrongField(form), true);
     return;
   }
   if (adviser) {
@@ -74,20 +74,43 @@ function advise() {
   }
   const asked = adviceRequest();
   const events = adviserEvents(asked);
+  byId("advice-progress").hidden = false;
   byId("advice-progress").removeAttribute("value");
-  sayAdvice("Estimating every set of parameters ...");
+  sayAdvice(`Estimating every set of parameters for ${asked.name} ...`);
   adviser = makeWorker((message) => events[message.what](message), (sentence) => events.failed({ sentence }));
 }
 
-adviceForm.onsubmit = (event) => {
+// ---- A typed sensor -------------------------------------------------------------------------------------------------
+
+let presetText = "";  // what the text began with
+
+/** True if a sensor was typed that is not yet the sensor. */
+function typedIsNew() {
+  const { value } = byId("typed");
+  return byId("typed").closest("details").open && value.trim() !== "" && value !== presetText && value !== given.sensor?.text;
+}
+
+/** Makes the typed sensor the sensor; the answer says whether that is possible. */
+async function useTyped() {
+  try {
+    give({ sensor: await askSensor({ name: "typed.toml", text: byId("typed").value }) });
+    return true;
+  } catch ({ message }) {
+    const sentence = message.startsWith("typed.toml:") ? message : `typed.toml: ${message}`;
+    fail(sentence);
+    sayAdvice(sentence, true);
+    return false;
+  }
+}
+
+adviceForm.onsubmit = async (event) => {
   event.preventDefault();
-  advise();
+  if (!typedIsNew() || await useTyped()) {
+    advise();
+  }
 };
-byId("type-preset").onclick = () => {
-  restartWorker(() => worker.postMessage({ what: "preset", name: form.sensor.value }));
-  hear.preset = ({ text }) => {
-    byId("typed").value = text;
-    run();
-  };
+byId("type-preset").onclick = async () => {
+  presetText = (await askModels({ what: "preset", name: form.sensor.value })).text;
+  byId("typed").value = presetText;
 };
-byId("type-use").onclick = () => askSensor({ name: "typed.toml", text: byId("typed").value });
+byId("type-use").onclick = useTyped;

@@ -2,4 +2,5 @@
 // The last script: everything that answers the worker is there.
 "use strict";
 
+showParts();
 startWorker();

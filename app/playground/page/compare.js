@@ -18,6 +18,7 @@ function paintComparison() {
   const first = splitColumn();
   paint(compared.canvas, one.map((value, i) => i % scene.columns < first ? value : two[i]), isError ? errorColour : depthColour);
   byId("compare-line").style.left = `${100 * first / scene.columns}%`;
+  compared.split.setAttribute("aria-valuetext", `${first} columns of ${readoutTitle(left)}, ${scene.columns - first} of ${readoutTitle(right)}`);
   byId("compare-names").replaceChildren(make("span", `left: ${readoutTitle(left)}`), make("span", `right: ${readoutTitle(right)}`));
 }
 
@@ -33,6 +34,7 @@ function showComparison() {
     list.replaceChildren(...frames.map((frame) => make("option", readoutTitle(frame), [], { value: frame.readout })));
     list.value = frames.some((frame) => frame.readout === before) ? before : frames[place === 0 ? 0 : frames.length - 1].readout;
   });
+  compared.canvas.setAttribute("aria-label", "map with the first read-out on the left of the line, the second on the right");
   compared.canvas.width = scene.columns;
   compared.canvas.height = scene.rows;
   paintComparison();
@@ -47,13 +49,16 @@ compared.canvas.onpointermove = compared.canvas.onpointerdown = (event) => {
   const box = compared.canvas.getBoundingClientRect();
   const across = (event.clientX - box.left) / box.width, down = (event.clientY - box.top) / box.height;
   if (event.buttons > 0) {
+    compared.canvas.setPointerCapture(event.pointerId);
     compared.split.value = across * compared.split.max;
     paintComparison();
   }
   const column = Math.floor(across * scene.columns), row = Math.floor(down * scene.rows);
   if (column >= 0 && row >= 0 && column < scene.columns && row < scene.rows) {
     const descriptions = comparedFrames().map((frame) => describePixel(frame, readoutTitle(frame))(row * scene.columns + column));
-    watchPixel(column, row);
+    if (event.buttons === 0) {  // the panel of the pixel would cover the line's slider
+      watchPixel(column, row);
+    }
     byId("compare-pixel").textContent = `Column ${column}, row ${row}: ${descriptions.join("; ")}`;
   }
 };

@@ -5,7 +5,9 @@
 
 const LARGEST_EXTENT = 65535;  // rows and columns of a map
 const MILLIMETRE = 1e-3;  // a unit of a PNG of 16 bits
+const MOST_PIXELS = 2 ** 24;  // of a map
 const LONGEST_RECORDING = 256e6;  // bytes; the models need three to five times as many
+const LONGEST_SENSOR = 1e6;  // bytes of a sensor file
 const given = { sensor: null, depth: null, recording: null };  // what a run takes instead of a preset and a scene
 let lastMap = null;  // the file, which another scale reads again
 let lastRecording = null;  // likewise, for another bin width
@@ -17,6 +19,9 @@ const isNpy = (bytes) => startsWith(bytes, 0x93, 0x4e, 0x55, 0x4d);
 function checkExtent(columns, rows) {
   if (!(columns >= 1 && rows >= 1 && columns <= LARGEST_EXTENT && rows <= LARGEST_EXTENT)) {
     refuse(`${columns} x ${rows} pixels: each must be 1..${LARGEST_EXTENT}`);
+  }
+  if (columns * rows > MOST_PIXELS) {
+    refuse(`${columns} x ${rows} pixels are more than ${MOST_PIXELS}, the most that this page takes; \`dtof frame\` takes more`);
   }
 }
 
@@ -49,8 +54,14 @@ const NPY_TYPES = { f4: [4, "getFloat32"], f8: [8, "getFloat64"], u1: [1, "getUi
   i1: [1, "getInt8"], i2: [2, "getInt16"], i4: [4, "getInt32"] };
 
 function npyHeader(bytes) {
+  if (bytes.length < 12) {
+    refuse("a damaged NPY");
+  }
   const view = new DataView(bytes.buffer, bytes.byteOffset);
   const [length, begin] = bytes[6] === 1 ? [view.getUint16(8, true), 10] : [view.getUint32(8, true), 12];
+  if (begin + length > bytes.length) {
+    refuse("a damaged NPY");
+  }
   return { view, data: begin + length, header: new TextDecoder("latin1").decode(bytes.slice(begin, begin + length)) };
 }
 
@@ -84,9 +95,22 @@ function readNpy(bytes) {
     values: Float64Array.from({ length: rows * columns }, (_, i) => view[size[1]](data + i * size[0], order !== ">")) };
 }
 
-async function inflate(bytes, format = "deflate") {
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+const tooLong = (bytes) => `${Math.ceil(bytes / 1e6)} MB; this page takes ${LONGEST_RECORDING / 1e6} MB, \`dtof\` more`;
+
+/** The bytes, unpacked; refuses more than `most`, and says `damaged` of what cannot be unpacked. */
+async function inflate(bytes, format, damaged, most = LONGEST_RECORDING) {
+  const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format)).getReader();
+  const parts = [];
+  let length = 0;
+  for (let part = await reader.read().catch(() => refuse(damaged)); !part.done; part = await reader.read().catch(() => refuse(damaged))) {
+    length += part.value.length;
+    if (length > most) {
+      await reader.cancel();
+      refuse(most < LONGEST_RECORDING ? damaged : `unpacked, it has more than ${tooLong(most)}`);
+    }
+    parts.push(part.value);
+  }
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
 }
 
 /** Paeth's predictor of PNG. */
@@ -115,8 +139,8 @@ async function readPng(bytes) {
     }
     at += 12 + length;
   }
-  const data = await inflate(await new Blob(parts).arrayBuffer()).catch(() => refuse("a damaged PNG"));
   const pixel = bits / 8, line = columns * pixel;
+  const data = await inflate(await new Blob(parts).arrayBuffer(), "deflate", "a damaged PNG", rows * (line + 1));
   if (data.length !== rows * (line + 1)) {
     refuse("a damaged PNG");
   }
@@ -136,10 +160,13 @@ async function readPng(bytes) {
     values: Float64Array.from({ length: rows * columns }, (_, i) => bits === 16 ? numbers.getUint16(2 * i) : plain[i]) };
 }
 
+const NO_KNOWN_FILE = "neither a sensor file (.toml) nor a depth map (PNG, PFM, NPY) nor a recording (.csv, .csv.gz, NPY, NPZ); " +
+  "`dtof convert` makes these of other files";
+
 /** A depth map in metres; 0 is unknown. `scale`: metres a unit, or NaN for the format's own. */
 async function readMap(bytes, scale) {
   const map = startsWith(bytes, 0x89, 0x50, 0x4e, 0x47) ? await readPng(bytes) : startsWith(bytes, 0x50, 0x66) ? readPfm(bytes) :
-    isNpy(bytes) ? readNpy(bytes) : refuse("neither a PNG, a PFM nor an NPY file");
+    isNpy(bytes) ? readNpy(bytes) : refuse(NO_KNOWN_FILE);
   if (map.bits === 8 && Number.isNaN(scale)) {
     refuse("a depth map of 8 bits needs its scale: give the metres that one unit stands for");
   }
@@ -176,7 +203,7 @@ function zipMembers(bytes) {
   return members;
 }
 
-const unpack = ({ method, packed }) => method === 0 ? packed : method === 8 ? inflate(packed, "deflate-raw") : refuse("an NPZ that is packed unusually");
+const unpack = ({ method, packed }) => method === 0 ? packed : method === 8 ? inflate(packed, "deflate-raw", "a damaged NPZ") : refuse("an NPZ that is packed unusually");
 
 /** Histograms and the width of their bins in an archive, as `dtof convert` writes it; else its only array. */
 async function readNpz(bytes) {
@@ -190,11 +217,13 @@ async function readNpz(bytes) {
 /** Axes that a depth map does not have: more than rows and columns of more than one. */
 const hasBins = (bytes) => isNpy(bytes) && npyShape(npyHeader(bytes)).filter((length) => length > 1).length > 2;
 
+const NO_DETECTIONS = /^acquisition,column,row,timestamp\s*$/;
+
 /** A recording of this name, or null if the file is none. */
 async function readRecording(name, file) {
   let bytes = file, histograms = false, binWidth = form["bin-width"].value === "" ? NaN : Number(form["bin-width"].value);
   if (startsWith(bytes, 0x1f, 0x8b)) {
-    bytes = await inflate(bytes, "gzip").catch(() => refuse("damaged gzip data"));
+    bytes = await inflate(bytes, "gzip", "damaged gzip data");
   }
   if (startsWith(bytes, 0x50, 0x4b)) {
     const { contents, width } = await readNpz(bytes);
@@ -206,11 +235,11 @@ async function readRecording(name, file) {
   } else if (!/\.csv(\.gz)?$/i.test(name)) {
     return null;
   }
-  if (bytes.length > LONGEST_RECORDING) {
-    refuse(`a recording of ${Math.ceil(bytes.length / 1e6)} MB; this page takes ${LONGEST_RECORDING / 1e6} MB, \`dtof replay\` more`);
-  }
   if (bytes.length === 0) {
     refuse("empty");
+  }
+  if (!histograms && NO_DETECTIONS.test(new TextDecoder("latin1").decode(bytes.slice(0, 200)))) {
+    refuse("no detections below the header");
   }
   return { name, contents: new Blob([bytes]), histograms, binWidth: histograms ? binWidth : 0 };
 }
@@ -222,6 +251,7 @@ function showGiven() {
     const button = byId(`drop-${kind}`);
     button.hidden = !given[kind];
     button.textContent = given[kind] ? `${given[kind].name} \u00d7` : "";
+    button.setAttribute("aria-label", given[kind] ? `remove ${given[kind].name}` : "");
   }
   form.sensor.disabled = Boolean(given.sensor);
   form.scene.disabled = Boolean(given.depth || given.recording);
@@ -233,14 +263,21 @@ function showGiven() {
   }
 }
 
-async function take(file) {
-  if (catalogue.readout.length === 0) {
-    refuse("the models are still starting");
+/** What a file is, as a part of `given`. */
+async function read(file) {
+  const isSensor = /\.toml$/i.test(file.name);
+  if (file.size === 0) {
+    refuse("the file is empty");
   }
-  const bytes = new Uint8Array(await file.arrayBuffer());
-  if (/\.toml$/i.test(file.name)) {
-    askSensor({ name: file.name, text: new TextDecoder().decode(bytes) });
-    return;
+  if (file.size > LONGEST_RECORDING) {
+    refuse(tooLong(file.size));
+  }
+  if (isSensor && file.size > LONGEST_SENSOR) {
+    refuse(`${Math.ceil(file.size / 1e6)} MB; a sensor file has at most ${LONGEST_SENSOR / 1e6} MB`);
+  }
+  const bytes = new Uint8Array(await file.arrayBuffer().catch(() => refuse("it cannot be read; a folder is no file")));
+  if (isSensor) {
+    return { sensor: await askSensor({ name: file.name, text: new TextDecoder().decode(bytes) }) };
   }
   const recording = await readRecording(file.name, bytes);
   if (recording) {
@@ -248,55 +285,68 @@ async function take(file) {
     if (Number.isNaN(recording.binWidth)) {
       refuse("histograms need the width of their bins: give it in ps");
     }
-    give("recording", recording);
-    return;
+    return { depth: null, recording };
   }
   lastMap = file;
   const typed = form["depth-scale"].value;
-  give("depth", { name: file.name, scale: typed, ...await readMap(bytes, typed === "" ? NaN : Number(typed)) });
+  return { depth: { name: file.name, scale: typed, ...await readMap(bytes, typed === "" ? NaN : Number(typed)) }, recording: null };
 }
 
-/** A map or a recording: either takes the place of the other. */
-function give(kind, what) {
-  given.depth = given.recording = null;
-  given[kind] = what;
+/** Runs with what is given now. A map and a recording take each other's place. */
+function give(what) {
+  Object.assign(given, what);
   showGiven();
+  if ("sensor" in what) {
+    takeSensor();
+  }
   showControls();
   run();
 }
 
-async function takeFiles(files) {
+/** Takes all of the files, or none of them if one is refused. */
+async function takeAll(files) {
+  if (catalogue.readout.length === 0) {
+    fail("The models are still starting.");
+    return;
+  }
+  const taken = {}, refused = [];
   for (const file of files) {
+    say(`Reading ${file.name} ...`);
     try {
-      await take(file);
-    } catch (error) {
-      fail(`${file.name}: ${error.message}`);
+      Object.assign(taken, await read(file));
+    } catch ({ message }) {
+      refused.push(message.startsWith(`${file.name}:`) ? message : `${file.name}: ${message}`);
     }
   }
+  if (refused.length > 0) {
+    fail(refused.join(" "));
+  } else if (files.length > 0) {
+    give(taken);
+  }
+}
+
+let taking = Promise.resolve();  // files that are dropped meanwhile come next
+
+function takeFiles(files) {
+  taking = taking.then(() => takeAll(files));
 }
 
 /** The models say what the sensor has, or what is wrong with its file. */
-function askSensor(sensor) {
-  restartWorker(() => worker.postMessage({ what: "sensor", sensor }));
-  hear.sensor = (message) => {
-    catalogue.given = message.line.trim().split("\t").slice(1);
-    given.sensor = sensor;
-    showGiven();
-    takeSensor();
-    run();
-  };
+async function askSensor(sensor) {
+  if (sensor.text.trim() === "") {
+    refuse("the file is empty");
+  }
+  if (sensor.text.includes("\0")) {
+    refuse("no text, so no sensor file");
+  }
+  const { line } = await askModels({ what: "sensor", sensor });
+  return { ...sensor, line: line.trim().split("\t").slice(1) };
 }
 
 function drop(kind) {
-  given[kind] = null;
   lastMap = kind === "depth" ? null : lastMap;
   lastRecording = kind === "recording" ? null : lastRecording;
-  showGiven();
-  if (kind === "sensor") {
-    takeSensor();
-  }
-  showControls();
-  run();
+  give({ [kind]: null });
 }
 
 byId("drop-sensor").onclick = () => drop("sensor");
@@ -323,5 +373,8 @@ document.ondragleave = () => document.body.classList.remove("over");
 document.ondrop = (event) => {
   event.preventDefault();
   document.body.classList.remove("over");
+  if (event.dataTransfer.files.length === 0) {
+    fail("What was dropped is no file.");
+  }
   takeFiles([...event.dataTransfer.files]);
 };

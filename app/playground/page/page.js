@@ -83,7 +83,7 @@ function fillControls() {
   takeSensor();
 }
 
-const sensor = () => given.sensor ? catalogue.given : catalogue.sensor.find(([name]) => name === form.sensor.value);
+const sensor = () => given.sensor ? given.sensor.line : catalogue.sensor.find(([name]) => name === form.sensor.value);
 
 /** What a sensor has of its own. */
 function takeSensor() {
@@ -93,10 +93,9 @@ function takeSensor() {
   for (const name of ["distance", "near", "far"]) {
     form[name].max = Number(range) - 0.01;
   }
-  form.size.replaceChildren(...SIZES.map((part) => {
-    const [width, height] = [columns / part, rows / part];
-    return make("option", `${width} x ${height}${part === 1 ? "" : ", quicker"}`, [], { value: `${width} ${height}` });
-  }));
+  const sizes = new Set(SIZES.map((part) => [columns, rows].map((extent) => Math.max(1, Math.floor(extent / part))).join(" ")));
+  form.size.replaceChildren(...[...sizes].map((size, i) =>
+    make("option", `${size.replace(" ", " x ")}${i === 0 ? "" : ", quicker"}`, [], { value: size })));
   showControls();
 }
 
@@ -163,11 +162,11 @@ function fail(sentence) {
   document.body.dataset.state = "failed";
 }
 
+const workerText = URL.createObjectURL(new Blob([byId("worker-text").textContent], { type: "text/javascript" }));
+
 /** A worker with the models. `failed` takes a sentence. */
 function makeWorker(heard, failed) {
-  const text = byId("worker-text").textContent;
-  const url = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
-  const made = new Worker(url);
+  const made = new Worker(workerText);
   made.onmessage = (event) => heard(event.data);
   made.onerror = (event) => {
     console.error(event.message);
@@ -186,10 +185,42 @@ function restartWorker(ready) {
   hear.ready = ready;
 }
 
+/** Asks a worker of its own, so that the frame and its pixels stay: a promise of the answer. */
+function askModels(question) {
+  return new Promise((resolve, reject) => {
+    const failed = (sentence) => {
+      asked.terminate();
+      reject(new Error(sentence));
+    };
+    const asked = makeWorker((message) => {
+      if (message.what === "ready") {
+        asked.postMessage(question);
+      } else if (message.what === "failed") {
+        failed(message.sentence);
+      } else {
+        asked.terminate();
+        resolve(message);
+      }
+    }, failed);
+  });
+}
+
+/** What is wrong with the first field of a form that is outside its limits; "" if none is. */
+function wrongField(fields) {
+  const wrong = [...fields.elements].find((field) => !field.validity.valid);
+  if (!wrong) {
+    return "";
+  }
+  const { min, max, step, value } = wrong;
+  const limits = max === "" ? `of ${min} or more` : `from ${min} to ${max}`;
+  return `${wrong.closest("label").firstChild.textContent.trim()}: ${value === "" ? "what is there" : value} is no ` +
+    `${step === "1" ? "whole number" : "number"} ${limits}.`;
+}
+
 /** Begins a run; one that is under way is given up. */
 function run() {
   if (!form.reportValidity()) {
-    fail("One of the settings is outside its limits.");
+    fail(wrongField(form));
     return;
   }
   const asked = request();
@@ -203,6 +234,7 @@ function run() {
     worker.postMessage(asked);
   }
   asking = true;
+  watched.ready = false;
   document.body.dataset.state = "running";
   begun = performance.now();
   frames = [];
@@ -245,8 +277,9 @@ const hear = {
     byId("progress").value = 1;
     const pixels = scene.columns * scene.rows;
     const seconds = (performance.now() - begun) / 1000;
-    say(`${frames.length} read-outs of ${pixels.toLocaleString("en")} pixels in ${seconds.toFixed(1)} s.`);
+    say(`${frames.length} read-out${frames.length === 1 ? "" : "s"} of ${pixels.toLocaleString("en")} pixels in ${seconds.toFixed(1)} s.`);
     show();
+    watched.ready = true;
     document.body.dataset.state = "done";
   },
   failed(message) {
@@ -256,23 +289,22 @@ const hear = {
 
 // ---- Results --------------------------------------------------------------------------------------------
 
-/** A map with the values of the pixel that is pointed at. */
-function map(values, colour, label, describe) {
-  const canvas = make("canvas", "", [], { width: scene.columns, height: scene.rows, role: "img", "aria-label": label });
+/** A map with the values of the pixel that is pointed at. `title` says of what, to those who do not see it. */
+function map(values, colour, title, label, describe) {
+  const canvas = make("canvas", "", [], { width: scene.columns, height: scene.rows, role: "img", "aria-label": `${title}: ${label}` });
   paint(canvas, values, colour);
   canvas.onpointermove = canvas.onpointerdown = (event) => {
     const box = canvas.getBoundingClientRect();
     const column = Math.floor((event.clientX - box.left) / box.width * scene.columns);
     const row = Math.floor((event.clientY - box.top) / box.height * scene.rows);
     if (column >= 0 && row >= 0 && column < scene.columns && row < scene.rows) {
-      byId("pixel").textContent = `Column ${column}, row ${row}: ${describe(row * scene.columns + column)}`;
-      watchPixel(column, row);
+      showPixel(column, row, describe);
     }
   };
   return make("figure", "", [canvas, make("figcaption", label)]);
 }
 
-const metres = (value) => Number.isNaN(value) ? "unknown" : `${value.toFixed(3)} m`;
+const metres = (value) => Number.isFinite(value) ? `${value.toFixed(3)} m` : "unknown";
 
 function describePixel(frame, title) {
   return (i) => {
@@ -298,7 +330,7 @@ function recordingCard(brightest) {
   return make("article", "", [
     make("h3", "The recording"),
     make("p", sceneSummary(), [], { class: "hint" }),
-    make("div", "", [map(scene.brightness, (value) => grey(value / Math.max(brightest, 1)), `detections, black 0, white ${brightest}`,
+    make("div", "", [map(scene.brightness, (value) => grey(value / Math.max(brightest, 1)), "The recording", `detections, black 0, white ${brightest}`,
       (i) => `${scene.brightness[i]} detections`)], { class: "maps" }),
     make("dl", "", [["pixels", `${scene.columns} x ${scene.rows}`], ["detections", detections.toLocaleString("en")]].map(([name, value]) =>
       make("div", "", [make("dt", name), make("dd", value)]))),
@@ -313,13 +345,20 @@ function sceneCard(brightest) {
     make("h3", "The scene"),
     make("p", sceneSummary(), [], { class: "hint" }),
     make("div", "", [
-      map(scene.truth, depthColour, "depth", describeTruth),
-      map(scene.brightness, (value) => grey(value / brightest), `reflectivity, black 0, white ${brightest.toFixed(2)}`, describeTruth),
+      map(scene.truth, depthColour, "The scene", "depth", describeTruth),
+      map(scene.brightness, (value) => grey(value / brightest), "The scene", `reflectivity, black 0, white ${brightest.toFixed(2)}`, describeTruth),
     ], { class: "maps" }),
     make("dl", "", [["nearest", metres(distances[0])], ["middle", metres(distances[distances.length >> 1])],
       ["farthest", metres(distances[distances.length - 1])]].map(([name, value]) =>
       make("div", "", [make("dt", name), make("dd", value)]))),
   ]);
+}
+
+/** Links to the parts of the page that are there. */
+function showParts() {
+  for (const link of document.querySelectorAll("#state [data-part]")) {
+    link.hidden = byId(link.dataset.part).hidden;
+  }
 }
 
 /** Without true distances, the colours span what was measured, but for the nearest and the farthest 2 %. */
@@ -335,7 +374,6 @@ function show() {
   if (scene.recorded) {
     spanMeasured();
   }
-  const depthMap = (values, describe) => map(values, depthColour, "depth", describe);
   const brightest = scene.brightness.reduce((most, value) => Math.max(most, value), 0);
   const cards = [scene.recorded ? recordingCard(brightest) : sceneCard(brightest)];
   byId("error-ramp").hidden = scene.recorded;
@@ -348,7 +386,8 @@ function show() {
     cards.push(make("article", "", [
       make("h3", title),
       make("p", summary, [], { class: "hint" }),
-      make("div", "", [depthMap(frame.depth, describe), ...scene.recorded ? [] : [map(frame.error, errorColour, "error", describe)]], { class: "maps" }),
+      make("div", "", [map(frame.depth, depthColour, title, "depth", describe),
+        ...scene.recorded ? [] : [map(frame.error, errorColour, title, "error", describe)]], { class: "maps" }),
       make("dl", "", figures.map(([name, value]) => make("div", "", [make("dt", name), make("dd", value)]))),
     ], { "data-readout": frame.readout, style: `border-top: 0.3rem solid ${cost.readouts[frame.readout]?.colour ?? "var(--line)"}` }));
     const bits = cost.readouts[frame.readout]?.bits ?? "-";
@@ -366,6 +405,7 @@ function show() {
   showComparison();
   forgetPixel();
   byId("shown").hidden = false;
+  showParts();
   byId("shown").classList.remove("stale");
 }
 
@@ -380,8 +420,13 @@ form.oninput = (event) => {
   showControls();
 };
 form.onchange = run;
-for (const [id, checked] of [["all", true], ["none", false]]) {
-  byId(id).onclick = () => {
-    form.querySelectorAll("[name=readout]").forEach((box) => { box.checked = checked; });
-  };
-}
+const checkAll = (checked) => form.querySelectorAll("[name=readout]").forEach((box) => { box.checked = checked; });
+byId("all").onclick = () => {
+  checkAll(true);
+  run();
+};
+byId("none").onclick = () => {
+  checkAll(false);
+  say("Choose read-outs.");
+};
+window.onerror = (message) => fail(`The page stopped: ${message}`);

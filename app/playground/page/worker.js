@@ -28,7 +28,7 @@ createModels().then((models) => {
       recording ? [recording.name, bytes.length, recording.binWidth] : ["", 0, 0]);
     models.HEAPU8.set(bytes, begin);
     attempt("take_sensor", ["string", "string"], sensor ? [sensor.name, sensor.text] : ["", ""]);
-    const place = call("take_map", "number", ["number", "number"], depth ? [depth.columns, depth.rows] : [0, 0]);
+    const place = call("take_map", "number", ["number", "number", "string"], depth ? [depth.columns, depth.rows, depth.name] : [0, 0, ""]);
     if (depth) {
       models.HEAPF32.set(depth.metres, place / 4);
     }

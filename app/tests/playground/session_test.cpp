@@ -163,6 +163,11 @@ TEST(PlaygroundSession, RefusesFilesThatCannotBe) {
   EXPECT_THAT(with({.sensor_name = "mine.toml", .sensor_text = "[laser]\npulse = 3\n"}),
               ThrowsMessage<InputError>(HasSubstr("mine.toml")));
   EXPECT_THAT(with({.map_columns = 2, .map_rows = 1, .map_m = {1.0F, -1.0F}}), Throws<InputError>());
+  const PlaygroundFiles dark{.map_name = "a.npy", .map_columns = 2, .map_rows = 1, .map_m = {0.0F, 0.0F}};
+  EXPECT_THAT(with(dark), ThrowsMessage<InputError>("a.npy: no pixel has a distance"));
+  const PlaygroundFiles far{.map_name = "a.npy", .map_columns = 2, .map_rows = 1, .map_m = {0.0F, 20.0F}};
+  EXPECT_THAT(with(far), ThrowsMessage<InputError>(
+                             HasSubstr("a.npy: every pixel is beyond the sensor's range, 6.75 m")));
 }
 
 TEST(PlaygroundSession, RefusesWhatCannotBe) {
