@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Larger and smaller arrays than the thesis's: area, clock, wires, power, clocks of a frame, and what their simulation costs (make synth-scale).
 
-Each array is synthesised and timed like the named configurations. Simulation is measured on strips of columns and extrapolated to the whole
-array by a straight line; a strip between the two ends shows the line's error.
+Columns are alike, so area and power of a wide array are extrapolated by a straight line through two narrower arrays with the same rows, which are
+synthesised and timed like the named configurations. One whole array shows the line's error. The time of a simulation is extrapolated from strips
+of columns in the same way.
 """
 
 from __future__ import annotations
@@ -36,12 +37,15 @@ PROGRAM = ROOT / "build" / "cpp" / "bin" / "dtof"
 READOUTS = ("ezpointer", "hispointer", "poolpointer", "poolpointer_lean")
 SIZES = ((64, 50), (320, 240), (640, 480), (1024, 1024))  # columns, rows
 SMALL_SIZES = SIZES[:1]
+PARTS = (64, 128)  # columns of the arrays that are synthesised; for poolPointer the columns of two and of four engines
+WHOLE = (320, 240)  # the whole array that is synthesised beside its extrapolation
 STAGE_UM = 1500.0  # of wire from the shared logic to the outermost column that one register of the broadcast crosses
 MOST_STAGES = 8  # that the RTL allows
 STRIP_COLUMNS = 10  # of the narrowest strip that is simulated; for poolPointer an engine's columns
 STRIPS = 3  # widths that are simulated: once, twice and three times that
 FRAME_RATE = 30
 ACQUISITIONS = 3333  # of the sensor `thesis`
+SIMULATED_ACQUISITIONS = 333
 
 
 @dataclass(frozen=True)
@@ -53,12 +57,11 @@ class Row:
     rows: int
     stages: int
     area: float
-    fmax_slow: float
-    slack_margins: float | None  # None: only the slow corner was timed
+    part_columns: int  # of the widest array that was synthesised
+    fmax_slow: float  # of that array
     half_width: float  # the longest way from the shared logic to a column
-    power: float | None
+    power: float | None  # None: only the slow corner was timed
     frame_clocks: int
-    acquisitions: int
     model_s: float
     model_error: float  # of the straight line, relative; 0 if the whole array was simulated
     rtl_s: float
@@ -72,15 +75,39 @@ def stages(columns: int) -> int:
     return min(max(2, -(-round(columns * floorplan.PITCH_UM / 2) // round(STAGE_UM))), MOST_STAGES)
 
 
-def array(base: Configuration, columns: int, rows: int) -> Configuration:
-    changes = {"SRAM_NUM": columns, "PIXELS_PER_SRAM": rows, "BROADCAST_STAGES": stages(columns)}
+@dataclass(frozen=True)
+class Whole:
+    """The whole array of the size WHOLE beside its extrapolation. Areas in mm2."""
+
+    readout: str
+    extrapolated: float
+    measured: float
+    fmax_slow: float
+    start: str  # of the slowest path
+    end: str
+
+
+def array(base: Configuration, columns: int, rows: int, of_columns: int = 0) -> Configuration:
+    """The read-out with this size. `of_columns`: of the wider array whose part this is, and whose broadcast it has."""
+    changes = {"SRAM_NUM": columns, "PIXELS_PER_SRAM": rows, "BROADCAST_STAGES": stages(of_columns or columns)}
     if base.is_pool:
         changes["ENGINE_COLUMNS"] = min(base["ENGINE_COLUMNS"], columns)
-    return base.with_parameters(f"{base.name}_{columns}x{rows}", **changes)
+    part = f"_of_{of_columns}" if of_columns else ""
+    return base.with_parameters(f"{base.name}_{columns}x{rows}{part}", **changes)
 
 
-def arrays(named: dict[str, Configuration], sizes: Iterable[tuple[int, int]]) -> list[Configuration]:
-    return [array(named[readout], columns, rows) for columns, rows in sizes for readout in READOUTS]
+def parts(base: Configuration, columns: int, rows: int) -> list[Configuration]:
+    """The arrays whose figures give those of an array; the array itself if it is not wider."""
+    widths = [2 * number * base["ENGINE_COLUMNS"] for number in (1, 2)] if base.is_pool else list(PARTS)
+    return [array(base, columns, rows)] if columns <= widths[-1] else [array(base, width, rows, columns) for width in widths]
+
+
+def on_the_line(items: list[Configuration], values: list[float], columns: int) -> float:
+    """The value of an array with this number of columns, from those of its parts."""
+    if len(items) == 1:
+        return values[0]
+    first, last = (item["SRAM_NUM"] for item in items)
+    return values[0] + (values[1] - values[0]) * (columns - first) / (last - first)
 
 
 def synthesised(item: Configuration, kit: Technology, say: Callable[[str], None]) -> Result:
@@ -127,7 +154,7 @@ def _in_a_process(command: list[str]) -> tuple[float, float]:
 
 def frame(program: Path, sensor_file: Path, readout: str, engine: str, columns: int, out: Path) -> list[str]:
     return [str(program), "frame", "--sensor", str(sensor_file), "--readout", readout, "--engine", engine, "--own-rows", "--columns",
-            f"0-{columns - 1}", "--table", "none", "--out", str(out)]
+            f"0-{columns - 1}", "--acquisitions", str(SIMULATED_ACQUISITIONS), "--table", "none", "--out", str(out)]
 
 
 def strips(item: Configuration) -> list[int]:
@@ -167,33 +194,47 @@ def fit(text: str, title: str) -> tuple[int, str]:
     return clocks, "" if line and "so that the frame fits" in line else (line or "").split("; ", 1)[-1]
 
 
-# ---- Table and page -----------------------------------------------------------------------------------------
-
-def row(item: Configuration, result: Result, program: Path, folder: Path, text: str, say: Callable[[str], None]) -> Row:
-    columns, rows = item["SRAM_NUM"], item["PIXELS_PER_SRAM"]
+def row(base: Configuration, columns: int, rows: int, results: dict[str, Result], folder: Path, text: str, say: Callable[[str], None]) -> Row:
     folder.mkdir(parents=True, exist_ok=True)
     sensor_file = folder / f"{columns}x{rows}.toml"
     sensor_file.write_text(sensor(text, columns, rows), encoding="utf-8")
-    option = item.name.rsplit("_", 1)[0].replace("_", "-")  # the read-out's name in `dtof`
-    clocks, limit = clocks_and_limit(program, sensor_file, item.title)
+    clocks, limit = clocks_and_limit(PROGRAM, sensor_file, base.title)
     found: dict[str, tuple[float, float]] = {}
     memory = 0.0
+    item = array(base, columns, rows)
     for engine in ("model", "rtl"):
         seconds: dict[int, float] = {}
         for strip in strips(item):
-            command = frame(program, sensor_file, option, engine, strip, folder / f"{item.name}_{engine}_{strip}")
-            if engine == "rtl" and not seconds:
+            command = frame(PROGRAM, sensor_file, base.name.replace("_", "-"), engine, strip, folder / f"{item.name}_{engine}_{strip}")
+            if engine == "rtl":
                 _in_a_process(command)  # builds the array, which is kept
             seconds[strip], size = _in_a_process(command)
             memory = max(memory, size)
         found[engine] = extrapolated(seconds, columns)
         say(f"{item.name}: {engine}: " + ", ".join(f"{strip} columns in {value:.1f} s" for strip, value in seconds.items()))
-    slow = result.timing["slow"]
-    margins = result.margins.get("slow")
-    return Row(item.title, columns, rows, item["BROADCAST_STAGES"], result.total_mm2, slow.fmax_mhz, margins.slack if margins else None,
-               columns * floorplan.PITCH_UM / 2000, result.power.total if result.power else None, clocks, ACQUISITIONS, *found["model"], *found["rtl"], memory,
-               limit)
+    items = parts(base, columns, rows)
+    made = [results[one.name] for one in items]
+    powers = [one.power.total for one in made if one.power]
+    return Row(base.title, columns, rows, item["BROADCAST_STAGES"], on_the_line(items, [one.total_mm2 for one in made], columns),
+               items[-1]["SRAM_NUM"], made[-1].timing["slow"].fmax_mhz, columns * floorplan.PITCH_UM / 2000,
+               on_the_line(items, powers, columns) if len(powers) == len(items) else None, clocks, *found["model"], *found["rtl"], memory, limit)
 
+
+def whole(base: Configuration, results: dict[str, Result], kit: Technology, say: Callable[[str], None]) -> Whole | None:
+    """The array of the size WHOLE; None if a tool fails in the slow corner, too."""
+    columns, rows = WHOLE
+    items = parts(base, columns, rows)
+    try:
+        found = synthesised(array(base, columns, rows), kit, say)
+    except FlowError as error:
+        say(str(error))
+        return None
+    slow = found.timing["slow"]
+    return Whole(base.title, on_the_line(items, [results[one.name].total_mm2 for one in items], columns), found.total_mm2, slow.fmax_mhz, slow.start,
+                 slow.end)
+
+
+# ---- Table and page -----------------------------------------------------------------------------------------
 
 def table(rows: Iterable[Row]) -> str:
     """CSV."""
@@ -204,62 +245,71 @@ def table(rows: Iterable[Row]) -> str:
     return out.getvalue()
 
 
-def _limits(rows: list[Row]) -> list[str]:
-    """A line for each array that misses something, with the parameter that helps."""
-    lines = []
+def _limits(rows: list[Row], wholes: list[Whole]) -> list[str]:
+    """A line for each array that misses something, with what helps."""
+    lines = [f"* {one.readout}, {WHOLE[0]} x {WHOLE[1]}, the whole array: {one.fmax_slow:.0f} MHz, from `{one.start}` to `{one.end}`." + (
+        " The end of the reset does not reach all columns in a clock: give each part of the array a reset synchroniser of its own "
+        "(dtof_reset_synchroniser), or use narrower arrays." if one.start == "rst_ni" else "")
+        for one in wholes if one.fmax_slow < TARGET_MHZ]
     for one in rows:
         name = f"{one.readout}, {one.columns} x {one.rows}"
-        if one.slack_margins is not None and one.slack_margins < 0:
-            wires = 1000 * one.half_width / one.stages > STAGE_UM
-            lines.append(f"* {name}: {one.slack_margins:.2f} ns of slack with margins, {one.fmax_slow:.0f} MHz. " + (
-                "The wires of the broadcast are too long. BROADCAST_STAGES has its largest value: use several narrower arrays." if wires else
-                "The wires of the broadcast are short enough; the slowest path is inside the array's logic."))
+        if one.fmax_slow < TARGET_MHZ:
+            lines.append(f"* {name}: {one.fmax_slow:.0f} MHz even with {one.part_columns} columns.")
+        if 1000 * one.half_width / one.stages > STAGE_UM:
+            lines.append(f"* {name}: {one.stages} registers, the most that BROADCAST_STAGES allows, leave {one.half_width / one.stages:.1f} mm of wire "
+                         "between two of them: use several narrower arrays.")
         if one.limit:
             lines.append(f"* {name}: {one.limit}")
     return lines or ["No array misses the clock or the frame rate."]
 
 
-def report(rows: list[Row]) -> str:
+def report(rows: list[Row], wholes: list[Whole]) -> str:
     def cells(one: Row) -> str:
-        pixels = one.columns * one.rows
-        slack = "-" if one.slack_margins is None else f"{one.slack_margins:+.2f}"
         power = "-" if one.power is None else f"{one.power:.0f}"
-        return (f"| {one.readout} | {one.columns} x {one.rows} | {one.area:.2f} | {1e6 * one.area / pixels:.0f} | {one.stages} | {one.half_width:.1f} | "
-                f"{one.fmax_slow:.0f} | {slack} | {power} | {one.frame_clocks:,} | {1e6 * TARGET_MHZ / one.frame_clocks:.0f} |")
+        return (f"| {one.readout} | {one.columns} x {one.rows} | {one.area:.2f} | {1e6 * one.area / (one.columns * one.rows):.0f} | {one.stages} | "
+                f"{one.half_width:.1f} | {one.fmax_slow:.0f} ({one.part_columns}) | {power} | {one.frame_clocks:,} | "
+                f"{1e6 * TARGET_MHZ / one.frame_clocks:.0f} |")
 
     def simulated(one: Row) -> str:
         errors = [f"{error:.0%}" if error else "-" for error in (one.model_error, one.rtl_error)]
         return (f"| {one.readout} | {one.columns} x {one.rows} | {one.model_s:.1f} | {errors[0]} | {one.rtl_s:.1f} | {errors[1]} | "
                 f"{one.memory_mb:.0f} |")
 
+    compared = [f"| {one.readout} | {one.extrapolated:.2f} | {one.measured:.2f} | {one.extrapolated / one.measured - 1:+.1%} | {one.fmax_slow:.0f} | "
+                f"`{one.start}` |" for one in wholes]
     return "\n".join([
         "# Other sizes of the array",
         "",
         f"From `make synth-scale`: arrays of {', '.join(f'{columns} x {lines}' for columns, lines in dict.fromkeys((one.columns, one.rows) for one in rows))} "
         "pixels (columns x rows), with the parameters of the thesis's array.",
-        f"Frames have {ACQUISITIONS:,} acquisitions. Each array is mapped once; `make synth` tries again where timing fails.",
+        f"Frames have {ACQUISITIONS:,} acquisitions.",
         "",
         "## What limits them",
         "",
-        *_limits(rows),
+        *_limits(rows, wholes),
         "",
         "## Area, clock, wires, power",
         "",
-        "| read-out | pixels | mm2 | um2 a pixel | BROADCAST_STAGES | longest way, mm | fmax slow, MHz | slack with margins, ns | mW | clocks of a frame | "
-        "frames/s |",
-        "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
+        f"Columns are alike. So area and power are those of a straight line through two narrower arrays with the same rows: {PARTS[0]} and {PARTS[1]} columns, "
+        "for poolPointer the columns of two and four engines. Each is mapped once.",
+        "",
+        "| read-out | pixels | mm2 | um2 a pixel | BROADCAST_STAGES | longest way, mm | fmax slow, MHz (of so many columns) | mW | clocks of a frame | frames/s |",
+        "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
         *map(cells, rows),
         "",
         f"* BROADCAST_STAGES: registers between the shared logic and the columns, one for each {STAGE_UM / 1000:g} mm, at least 2. They change no result.",
         "* Longest way: from the shared logic in the middle to the outermost column; columns are 0.025 mm wide.",
         "* mW: at 330 MHz in the typical corner with the activity that the synthesis assumes, not that of a scene. Compare the rows with each other, and "
         "not with [power.md](power.md).",
-        *(["* -: OpenSTA crashed in another corner than the slow one, so that there are neither margins nor power."]
-          if any(one.power is None for one in rows) else []),
+        *(["* -: OpenSTA crashed in another corner than the slow one, so that the power is not known."] if any(one.power is None for one in rows) else []),
+        *(["", f"A whole array of {WHOLE[0]} x {WHOLE[1]} pixels beside its extrapolation:", "",
+           "| read-out | extrapolated, mm2 | whole, mm2 | difference | fmax slow, MHz | the slowest path begins at |", "|---|---:|---:|---:|---:|---|", *compared]
+          if wholes else []),
         "",
         "## Simulation",
         "",
-        f"Seconds on this machine for a frame of the whole array, from strips of one, two and three times {STRIP_COLUMNS} columns (poolPointer: an engine's "
+        f"Seconds on this machine for a frame of the whole array with {SIMULATED_ACQUISITIONS} acquisitions, from strips of one, two and three times "
+        f"{STRIP_COLUMNS} columns (poolPointer: an engine's "
         "columns). A straight line through the narrowest and the widest strip gives the whole array; the error is the line's at the strip between "
         "them. Without an error the whole array was simulated.",
         "",
@@ -276,16 +326,20 @@ def main() -> int:
     try:
         if not PROGRAM.exists():
             raise FlowError(f"{PROGRAM}: `make` builds it")
-        items = arrays(configuration.load(ROOT / "configurations.toml"), SMALL_SIZES if is_small() else SIZES)
-        kit = technologies.prepare(ROOT, BUILD / "generic40", [], more=items)
+        named = configuration.load(ROOT / "configurations.toml")
+        bases = [named[readout] for readout in READOUTS]
+        sizes = SMALL_SIZES if is_small() else SIZES
+        items = [item for columns, rows in sizes for base in bases for item in parts(base, columns, rows)]
+        kit = technologies.prepare(ROOT, BUILD / "generic40", [], more=[*items, *(array(base, *WHOLE) for base in bases)])
         with ThreadPoolExecutor(arguments.jobs) as pool:
             results = dict(zip((item.name for item in items), pool.map(lambda item: synthesised(item, kit, _say), items), strict=True))
+            made = list(pool.map(lambda base: whole(base, results, kit, _say), bases if WHOLE in sizes else []))
         text = subprocess.run([str(PROGRAM), "sensor", "thesis"], capture_output=True, text=True, check=True).stdout
-        rows = [row(item, results[item.name], PROGRAM, BUILD / "frames", text, _say) for item in items]
+        found = [row(base, *size, results, BUILD / "frames", text, _say) for size in sizes for base in bases]
         reports = written_root(ROOT) / "reports"
         reports.mkdir(parents=True, exist_ok=True)
-        (reports / "scale.csv").write_text(table(rows), encoding="utf-8")
-        (reports / "scale.md").write_text(report(rows), encoding="utf-8")
+        (reports / "scale.csv").write_text(table(found), encoding="utf-8")
+        (reports / "scale.md").write_text(report(found, [one for one in made if one]), encoding="utf-8")
         _say("reports/scale.md, reports/scale.csv written")
         return 0
     except FlowError as error:

@@ -20,7 +20,8 @@ SENSOR = 'name = "thesis"\n\n[array]\ncolumns = 200\nrows = 160\n'
 FITS = ("ezPointer: a frame of 3333 acquisitions takes 1112812 clocks, 3.37 ms at 330 MHz; 30 frames/s leave 11000000, so that the frame fits.\n"
         "poolPointer: a frame of 3333 acquisitions takes 13000000 clocks, 39 ms at 330 MHz; 30 frames/s leave 11000000. It would fit with 2000 "
         "acquisitions.\n")
-ROW = scale.Row("ezPointer", 640, 480, 6, 5.0, 335.0, 0.01, 8.0, 200.0, 3300000, 3333, 10.0, 0.02, 50.0, 0.1, 80.0, "")
+ROW = scale.Row("ezPointer", 640, 480, 6, 5.0, 128, 335.0, 8.0, 200.0, 3300000, 10.0, 0.02, 50.0, 0.1, 80.0, "")
+WHOLE = scale.Whole("ezPointer", 2.5, 2.0, 250.0, "rst_ni", "received[29]")
 
 
 class Arrays(unittest.TestCase):
@@ -28,13 +29,25 @@ class Arrays(unittest.TestCase):
         for columns, stages in ((2, 2), (64, 2), (200, 2), (240, 2), (241, 3), (320, 3), (640, 6), (960, 8), (1024, 8)):
             self.assertEqual(scale.stages(columns), stages, columns)
 
-    def test_arrays_keep_all_other_parameters(self) -> None:
-        for item in scale.arrays(NAMED, scale.SIZES):
-            base = NAMED[item.name.rsplit("_", 1)[0]]
-            changed = {name for name, value in item.parameters.items() if base.parameters.get(name) != value}
-            self.assertLessEqual(changed, {"SRAM_NUM", "PIXELS_PER_SRAM", "BROADCAST_STAGES", "ENGINE_COLUMNS"})
-            self.assertEqual(f"{base.name}_{item['SRAM_NUM']}x{item['PIXELS_PER_SRAM']}", item.name)
-        self.assertEqual(len({item.name for item in scale.arrays(NAMED, scale.SIZES)}), len(scale.SIZES) * len(scale.READOUTS))
+    def test_parts_keep_all_other_parameters_and_the_broadcast_of_the_whole_array(self) -> None:
+        for base in (NAMED[name] for name in scale.READOUTS):
+            for columns, rows in scale.SIZES:
+                items = scale.parts(base, columns, rows)
+                for item in items:
+                    changed = {name for name, value in item.parameters.items() if base.parameters.get(name) != value}
+                    self.assertLessEqual(changed, {"SRAM_NUM", "PIXELS_PER_SRAM", "BROADCAST_STAGES", "ENGINE_COLUMNS"})
+                    self.assertEqual((item["PIXELS_PER_SRAM"], item["BROADCAST_STAGES"]), (rows, scale.stages(columns)))
+                    if base.is_pool and len(items) == 2:
+                        self.assertEqual(item["SRAM_NUM"] % base["ENGINE_COLUMNS"], 0)
+                self.assertEqual(len(items), 1 if columns == 64 else 2)
+        names = [item.name for base in (NAMED[name] for name in scale.READOUTS) for size in scale.SIZES for item in scale.parts(base, *size)]
+        self.assertEqual(len(set(names)), len(names))
+
+    def test_the_line_goes_through_both_parts(self) -> None:
+        items = scale.parts(NAMED["ezpointer"], 320, 240)
+        self.assertEqual([item["SRAM_NUM"] for item in items], [64, 128])
+        self.assertAlmostEqual(scale.on_the_line(items, [1.0, 1.5], 320), 3.0)
+        self.assertEqual(scale.on_the_line(items[:1], [1.0], 64), 1.0)
 
     def test_the_sensor_has_the_arrays_size(self) -> None:
         self.assertEqual(scale.sensor(SENSOR, 64, 50), SENSOR.replace("200", "64").replace("160", "50"))
@@ -112,27 +125,34 @@ class Simulation(unittest.TestCase):
 
 class Page(unittest.TestCase):
     def test_rows_have_the_figures(self) -> None:
-        text = scale.report([ROW])
+        text = scale.report([ROW], [])
         self.assertIn("No array misses the clock or the frame rate.", text)
-        self.assertIn("| ezPointer | 640 x 480 | 5.00 | 16 | 6 | 8.0 | 335 | +0.01 | 200 | 3,300,000 | 100 |", text)
+        self.assertIn("| ezPointer | 640 x 480 | 5.00 | 16 | 6 | 8.0 | 335 (128) | 200 | 3,300,000 | 100 |", text)
         self.assertIn("| ezPointer | 640 x 480 | 10.0 | 2% | 50.0 | 10% | 80 |", text)
+        self.assertNotIn("whole array of", text)
+
+    def test_a_whole_array_stands_beside_its_extrapolation(self) -> None:
+        text = scale.report([ROW], [WHOLE])
+        self.assertIn("| ezPointer | 2.50 | 2.00 | +25.0% | 250 | `rst_ni` |", text)
+        self.assertIn("250 MHz, from `rst_ni` to `received[29]`. The end of the reset does not reach", text)
 
     def test_an_array_without_power_says_so(self) -> None:
-        text = scale.report([replace(ROW, slack_margins=None, power=None)])
-        self.assertIn("| 335 | - | - | 3,300,000 |", text)
+        text = scale.report([replace(ROW, power=None)], [])
+        self.assertIn("| 335 (128) | - | 3,300,000 |", text)
         self.assertIn("OpenSTA crashed", text)
-        self.assertNotIn("crashed", scale.report([ROW]))
-        self.assertIn(",335,,8,,", scale.table([replace(ROW, slack_margins=None, power=None)]))
+        self.assertNotIn("crashed", scale.report([ROW], []))
+        self.assertIn(",335,8,,", scale.table([replace(ROW, power=None)]))
 
     def test_what_limits_an_array_has_a_line(self) -> None:
-        inside = replace(ROW, slack_margins=-0.2)
-        wires = replace(ROW, slack_margins=-0.2, columns=2048, stages=8, half_width=25.6)
+        logic = replace(ROW, fmax_slow=320.0)
+        wires = replace(ROW, columns=2048, stages=8, half_width=25.6)
         frame = replace(ROW, limit="30 frames/s leave 11000000. It would fit with 2000 acquisitions.")
-        lines = scale._limits([ROW, inside, wires, frame])
-        self.assertEqual(len(lines), 3)
-        self.assertIn("inside the array's logic", lines[0])
-        self.assertIn("several narrower arrays", lines[1])
-        self.assertIn("2000 acquisitions", lines[2])
+        lines = scale._limits([ROW, logic, wires, frame], [replace(WHOLE, start="received[1]"), replace(WHOLE, fmax_slow=331.0)])
+        self.assertEqual(len(lines), 4)
+        self.assertNotIn("reset", lines[0])
+        self.assertIn("320 MHz even with 128 columns", lines[1])
+        self.assertIn("several narrower arrays", lines[2])
+        self.assertIn("2000 acquisitions", lines[3])
 
     def test_the_table_has_every_field(self) -> None:
         (header, values) = csv.reader(io.StringIO(scale.table([ROW])))
