@@ -53,7 +53,7 @@ def script(array: Configuration, black_boxes: Path, written: Path) -> str:
     top = array.top
     return f"""
 read_verilog -sv -defer -DSYNTHESIS -I{ROOT / "hdl" / "common"} {files}
-read_verilog -sv {black_boxes}
+read_verilog -sv -defer {black_boxes}
 hierarchy -check -top {top} {parameters}
 synth -noshare -top {top} -run coarse:fine
 opt -fast -undriven -fine

@@ -174,14 +174,20 @@ class NetlistReader {
     memory.two_ports = type.find("dtof_sram_1r1w") != std::string::npos;
     memory.has_parity = netlist_.parity;
     const Json& parameters = modules_.at(type).at("parameter_default_values");
-    memory.depth =
-        static_cast<std::uint32_t>(std::stoul(parameters.at("DEPTH").get<std::string>(), nullptr, kBinary));
+    const auto parameter = [&](const char* key) {
+      return static_cast<std::uint32_t>(std::stoul(parameters.at(key).get<std::string>(), nullptr, kBinary));
+    };
+    memory.depth = parameter("DEPTH");
     memory.read_enable = net(pins.at(memory.two_ports ? "re_i" : "en_i")[0]);
     memory.write_enable = net(pins.at("we_i")[0]);
     memory.read_address = nets(pins.at(memory.two_ports ? "raddr_i" : "addr_i"));
     memory.write_address = nets(pins.at(memory.two_ports ? "waddr_i" : "addr_i"));
     memory.read_data = nets(pins.at("rdata_o"));
     memory.write_data = nets(pins.at("wdata_i"));
+    if (memory.width() != parameter("WIDTH")) {
+      fail(fmt::format("memory '{}' has {} data bits, but its type has {}", cell_name, memory.width(),
+                       parameter("WIDTH")));
+    }
     netlist_.memories.push_back(std::move(memory));
   }
 
