@@ -58,8 +58,8 @@ struct ArrayResult {
 };
 
 struct MetricStudyOptions {
-  std::uint32_t acquisitions = 333;
-  int faults = 1000;  ///< at most, of each stratum and kind
+  std::uint32_t acquisitions = 3333;
+  int faults = 400;  ///< at most, of each stratum and kind
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: all processors
 };
