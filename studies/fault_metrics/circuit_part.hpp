@@ -30,7 +30,8 @@ enum class Repeated { kColumn, kEngine, kArray };
 /// E.g. "memory control".
 std::string_view part_title(CircuitPart part);
 
-/// Part of a cell with this hierarchical name, e.g. "$flatten\g_column[0].u_column.\u_result_register.$abc$1".
+/// Part of a cell with this hierarchical name, e.g.
+/// "$flatten\g_column[0].u_column.\u_result_register.$abc$1".
 CircuitPart part_of_cell(std::string_view name);
 
 /// Where the cell with this hierarchical name is.

@@ -18,7 +18,8 @@ constexpr std::uint32_t kEvents = 0x45564E54U;
 constexpr std::uint32_t kStuck = 0x53545543U;
 
 CounterRandom random_of(const FaultStratum& stratum, std::uint32_t purpose, std::uint64_t seed) {
-  const auto place = static_cast<std::uint32_t>(stratum.part) << 8U | static_cast<std::uint32_t>(stratum.element);
+  const auto place =
+      static_cast<std::uint32_t>(stratum.part) << 8U | static_cast<std::uint32_t>(stratum.element);
   return {seed, purpose, place, static_cast<std::uint32_t>(stratum.repeated)};
 }
 
@@ -29,7 +30,8 @@ double repetitions(const GateNetlist& netlist, Repeated repeated, bool is_bit) {
     case Repeated::kColumn:
       return rows * kFullColumns / netlist.columns;
     case Repeated::kEngine: {
-      const int engine_columns = ReadoutParameters::defaults(parse_readout(netlist.readout)).pool.engine_columns;
+      const int engine_columns =
+          ReadoutParameters::defaults(parse_readout(netlist.readout)).pool.engine_columns;
       return rows * ((kFullColumns + engine_columns - 1) / engine_columns);
     }
     case Repeated::kArray:
@@ -70,8 +72,8 @@ std::vector<FaultStratum> fault_strata(const GateNetlist& netlist) {
     }
     for (std::uint32_t bit = 0; bit < memory.depth * memory.width(); ++bit) {
       const bool parity = memory.has_parity && bit % memory.width() == memory.width() - 1;
-      found[{parity ? CircuitPart::kParityBits : CircuitPart::kWords, Element::kBit, memory.repeated}].push_back(
-          {SiteKind::kBit, i, bit});
+      found[{parity ? CircuitPart::kParityBits : CircuitPart::kWords, Element::kBit, memory.repeated}]
+          .push_back({SiteKind::kBit, i, bit});
     }
   }
   std::vector<FaultStratum> strata;

@@ -73,9 +73,7 @@ class NetlistReader {
 
   void read_attributes() {
     netlist_.readout = attribute("dtof_readout");
-    const auto number = [this](const char* key) {
-      return std::stoi(attribute(key), nullptr, kBinary);
-    };
+    const auto number = [this](const char* key) { return std::stoi(attribute(key), nullptr, kBinary); };
     netlist_.rows = number("dtof_rows");
     netlist_.columns = number("dtof_columns");
     netlist_.parity = number("dtof_parity") != 0;
@@ -134,8 +132,8 @@ class NetlistReader {
                               .y = pin("Y")});
   }
 
-  /// `$_DFF_P_`, `$_DFFE_PN_`, `$_DFF_PN0_`, `$_DFFE_PN0P_`, `$_SDFF_PP0_`, `$_SDFFE_PP0P_`, `$_SDFFCE_PP0P_`:
-  /// polarities of clock, reset with its value, enable.
+  /// `$_DFF_P_`, `$_DFFE_PN_`, `$_DFF_PN0_`, `$_DFFE_PN0P_`, `$_SDFF_PP0_`, `$_SDFFE_PP0P_`,
+  /// `$_SDFFCE_PP0P_`: polarities of clock, reset with its value, enable.
   bool read_flip_flop(const std::string& type, const std::string& cell_name, const Json& pins) {
     const std::size_t end = type.rfind('_', type.size() - 2);
     if (!type.starts_with("$_") || end == std::string::npos || end < 2) {

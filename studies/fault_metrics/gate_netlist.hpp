@@ -76,8 +76,8 @@ struct GateNetlist {
   [[nodiscard]] const std::vector<Net>& port(const std::string& name) const;
 };
 
-/// Reads a netlist that scripts/fault_netlists.py wrote. Throws InputError "<path>: <reason>" for a cell of an
-/// unknown type, for a combinational loop and for a missing attribute.
+/// Reads a netlist that scripts/fault_netlists.py wrote. Throws InputError "<path>: <reason>" for a cell of
+/// an unknown type, for a combinational loop and for a missing attribute.
 GateNetlist read_gate_netlist(const std::filesystem::path& path);
 
 /// As read_gate_netlist; `name` is the file's name in error texts.

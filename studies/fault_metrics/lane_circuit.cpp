@@ -114,8 +114,8 @@ void LaneCircuit::settle() {
     apply(change, values_[change.index]);
   }
   const auto count = static_cast<std::uint32_t>(netlist_.gates.size());
-  const bool inverted = std::ranges::any_of(
-      present_, [](const Flip& flip) { return flip.site.kind == SiteKind::kGate; });
+  const bool inverted =
+      std::ranges::any_of(present_, [](const Flip& flip) { return flip.site.kind == SiteKind::kGate; });
   const std::vector<Change> with_inverted = inverted ? gate_changes() : std::vector<Change>();
   const std::vector<Change>& changes = inverted ? with_inverted : stuck_gates_;
   std::uint32_t done = 0;

@@ -29,7 +29,7 @@ struct FaultSite {
 };
 
 enum class FaultAction : std::uint8_t {
-  kFlip,       ///< a flip-flop or a stored bit changes its state once; any other output is inverted for one clock
+  kFlip,  ///< a flip-flop or a stored bit changes its state once; any other output is inverted for one clock
   kStuckLow,   ///< 0 in every clock
   kStuckHigh,  ///< 1 in every clock
 };

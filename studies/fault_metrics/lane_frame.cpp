@@ -17,7 +17,7 @@ namespace dtof {
 namespace {
 
 constexpr int kResetClocks = 2;
-constexpr double kTolerance = 0.03;              // of the position
+constexpr double kTolerance = 0.03;  // of the position
 constexpr std::uint64_t kLongestReference = 1U << 26U;
 constexpr std::uint64_t kInterruptionInterval = 1U << 14U;
 constexpr std::uint64_t kRoom = 64;

@@ -38,8 +38,8 @@ struct FrameOutcome {
   bool beyond = false;        ///< a result is missing, or a position differs by more than 3 % of the position
   bool wrong_count = false;   ///< too few or too many results, or the wrong one is marked as the last
   bool wrong_order = false;   ///< a result has another row or column than it should
-  bool endless = false;       ///< no done within an eighth more than the clocks of the frame, or busy afterwards
-  bool parity_error = false;  ///< parity_error_o was high
+  bool endless = false;  ///< no done within an eighth more than the clocks of the frame, or busy afterwards
+  bool parity_error = false;    ///< parity_error_o was high
   bool protocol_error = false;  ///< a bit of error_o was high
 
   /// Wrong or missing results, or no end.

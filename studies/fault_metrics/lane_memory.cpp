@@ -25,8 +25,8 @@ Lanes same_address(std::span<const Lanes> values, std::span<const Net> nets) {
   return ~differs;
 }
 
-/// Calls `body(address, lanes)` for the lanes of `enable`: once for those with the address of lane 0, and once
-/// for every other lane. Addresses beyond `depth` are left out.
+/// Calls `body(address, lanes)` for the lanes of `enable`: once for those with the address of lane 0, and
+/// once for every other lane. Addresses beyond `depth` are left out.
 template <typename Body>
 void for_each_address(std::span<const Lanes> values, std::span<const Net> nets, std::uint32_t depth,
                       const Lanes& enable, const Body& body) {

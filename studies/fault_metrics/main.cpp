@@ -92,8 +92,9 @@ void add_options(CLI::App& app, const std::string& command_line) {
 int main(int argc, char** argv) {
   const dtof::Program program = {
       .name = "dtof-fault-metrics",
-      .description = "dtof-fault-metrics: which single faults of a netlist make results wrong, and which of them "
-                     "the array detects.",
+      .description =
+          "dtof-fault-metrics: which single faults of a netlist make results wrong, and which of them "
+          "the array detects.",
       .examples = "An interrupted run continues behind the netlists that it has finished.\n",
       .add_commands = add_options};
   return dtof::run_program(program, argc, argv);

@@ -85,8 +85,8 @@ std::string percent(const Estimate& share) {
 }
 
 std::string metric_table(std::span<const ArrayResult> results) {
-  Table table({"read-out", "parity", "fault", "harmful, %", "detected of them, %", "of those in logic, %", "beyond 3 %, %",
-               "SPFM, %", "LFM, %"},
+  Table table({"read-out", "parity", "fault", "harmful, %", "detected of them, %", "of those in logic, %",
+               "beyond 3 %, %", "SPFM, %", "LFM, %"},
               3);
   for (const ArrayResult& result : results) {
     for (const FaultLife life : kLives) {
@@ -94,16 +94,15 @@ std::string metric_table(std::span<const ArrayResult> results) {
       const bool has_latent = result.parity && life == FaultLife::kStuck;
       table.add({title(result), yes(result.parity), std::string(life_title(life)), percent(metrics.harmful),
                  percent(metrics.detected), percent(metrics.in_logic), percent(metrics.detected_beyond),
-                 percent(metrics.single_point),
-                 has_latent ? percent(metrics.latent) : "-"});
+                 percent(metrics.single_point), has_latent ? percent(metrics.latent) : "-"});
     }
   }
   return table.markdown();
 }
 
 std::string means_table(std::span<const ArrayResult> results) {
-  Table table({"read-out", "parity", "fault", "parity_error_o", "error_o", "receiver", "self-test", "nothing"},
-              3);
+  Table table(
+      {"read-out", "parity", "fault", "parity_error_o", "error_o", "receiver", "self-test", "nothing"}, 3);
   for (const ArrayResult& result : results) {
     for (const FaultLife life : kLives) {
       const double harmful =
@@ -129,17 +128,15 @@ struct ElementClass {
   std::vector<StratumResult> strata;
 
   [[nodiscard]] std::string name() const {
-    return element == Element::kBit
-               ? std::string(part_title(part))
-               : fmt::format("{} of {}", element_title(element), part_title(part));
+    return element == Element::kBit ? std::string(part_title(part))
+                                    : fmt::format("{} of {}", element_title(element), part_title(part));
   }
 };
 
 std::vector<ElementClass> classes_of(const ArrayResult& result) {
   std::vector<ElementClass> classes;
   for (const StratumResult& stratum : result.strata) {
-    if (classes.empty() || classes.back().part != stratum.part ||
-        classes.back().element != stratum.element) {
+    if (classes.empty() || classes.back().part != stratum.part || classes.back().element != stratum.element) {
       classes.push_back({stratum.part, stratum.element, {}});
     }
     classes.back().strata.push_back(stratum);
@@ -171,13 +168,13 @@ std::string part_table(std::span<const ArrayResult> results) {
         const auto found = [](const FaultCounts& c) { return c.harmful - c.undetected; };
         cells.push_back(percent(weighted_share(one.strata, life, harmful, all).value));
         cells.push_back(percent(weighted_share(one.strata, life, found, harmful).value));
-        cells.push_back(
-            percent(undetected_sum(one.strata, life) / undetected_sum(result.strata, life)));
+        cells.push_back(percent(undetected_sum(one.strata, life) / undetected_sum(result.strata, life)));
       }
-      cells.push_back(percent(weighted_share(one.strata, FaultLife::kStuck,
-                                             [](const FaultCounts& c) { return c.latent; },
-                                             [](const FaultCounts& c) { return c.faults; })
-                                  .value));
+      cells.push_back(
+          percent(weighted_share(
+                      one.strata, FaultLife::kStuck, [](const FaultCounts& c) { return c.latent; },
+                      [](const FaultCounts& c) { return c.faults; })
+                      .value));
       table.add(cells);
     }
   }
@@ -190,9 +187,8 @@ std::string pair_text(double without, double with, int digits) {
 
 /// The array of the same read-out without parity.
 const ArrayResult* without_parity(std::span<const ArrayResult> results, const ArrayResult& with) {
-  const auto found = std::ranges::find_if(results, [&](const ArrayResult& one) {
-    return one.readout == with.readout && !one.parity;
-  });
+  const auto found = std::ranges::find_if(
+      results, [&](const ArrayResult& one) { return one.readout == with.readout && !one.parity; });
   return found == results.end() ? nullptr : &*found;
 }
 
@@ -248,19 +244,21 @@ std::string verdict(const Estimate& detected) {
   return fmt::format("{} %, {}", percent(detected), met);
 }
 
-std::string conclude(std::span<const ArrayResult> results, const std::map<std::string, ProtectionCost>& costs) {
-  std::string text = fmt::format("Goals: at least {:.0f} % of the harmful single faults are detected within one "
-                                 "frame; parity takes at most {:.0f} % of the area.\n\n",
-                                 kPercent * kDetectedGoal, kPercent * kAreaGoal);
+std::string conclude(std::span<const ArrayResult> results,
+                     const std::map<std::string, ProtectionCost>& costs) {
+  std::string text = fmt::format(
+      "Goals: at least {:.0f} % of the harmful single faults are detected within one "
+      "frame; parity takes at most {:.0f} % of the area.\n\n",
+      kPercent * kDetectedGoal, kPercent * kAreaGoal);
   for (const ArrayResult& result : results) {
     if (!result.parity) {
       continue;
     }
     for (const FaultLife life : kLives) {
       const SafetyMetrics metrics = safety_metrics(result, life);
-      text += fmt::format("* {} with parity, {}: detected harmful faults {}; of those in logic {} %.",
-                          title(result), life_title(life), verdict(metrics.detected),
-                          percent(metrics.in_logic));
+      text +=
+          fmt::format("* {} with parity, {}: detected harmful faults {}; of those in logic {} %.",
+                      title(result), life_title(life), verdict(metrics.detected), percent(metrics.in_logic));
       if (undetected_sum(result.strata, life) > 0.0) {
         text += fmt::format(" Most of the others: {}.", largest_classes(result, life));
       }
@@ -274,17 +272,17 @@ std::string conclude(std::span<const ArrayResult> results, const std::map<std::s
       text += fmt::format("* {}: the array with parity is not synthesised.\n", title(result));
     } else {
       const double share = cost->second.area_share();
-      text += fmt::format("* {}: parity takes {} % of the area, the goal is {}.\n", title(result), percent(share),
-                          share <= kAreaGoal ? "met" : "missed");
+      text += fmt::format("* {}: parity takes {} % of the area, the goal is {}.\n", title(result),
+                          percent(share), share <= kAreaGoal ? "met" : "missed");
     }
   }
   return text;
 }
 
 std::string csv_of(std::span<const ArrayResult> results) {
-  Table table({"readout", "parity", "part", "element", "repeated", "life", "elements", "elements_of_full_array",
-               "faults", "harmful", "beyond_3_percent", "by_parity", "by_error", "by_receiver", "by_self_test",
-               "undetected", "undetected_beyond_3_percent", "latent"});
+  Table table({"readout", "parity", "part", "element", "repeated", "life", "elements",
+               "elements_of_full_array", "faults", "harmful", "beyond_3_percent", "by_parity", "by_error",
+               "by_receiver", "by_self_test", "undetected", "undetected_beyond_3_percent", "latent"});
   constexpr std::array<std::string_view, 3> kPlaces = {"column", "engine", "array"};
   for (const ArrayResult& result : results) {
     for (const StratumResult& one : result.strata) {
@@ -319,10 +317,10 @@ MetricReport report_metrics(std::span<const ArrayResult> results,
   report.conclusions = conclude(results, costs);
   const int columns = results.empty() ? 0 : results.front().columns;
   const int rows = results.empty() ? 0 : results.front().rows;
-  report.markdown = fmt::format(
-      kPage, columns, rows, options.acquisitions, options.faults, command_line, options.seed, report.conclusions,
-      kFullColumns, kFullRows, columns == 0 ? 0 : kFullColumns / columns, metric_table(results),
-      means_table(results), part_table(results), cost_table(results, costs));
+  report.markdown = fmt::format(kPage, columns, rows, options.acquisitions, options.faults, command_line,
+                                options.seed, report.conclusions, kFullColumns, kFullRows,
+                                columns == 0 ? 0 : kFullColumns / columns, metric_table(results),
+                                means_table(results), part_table(results), cost_table(results, costs));
   report.csv = csv_of(results);
   return report;
 }

@@ -15,8 +15,8 @@
 namespace dtof {
 namespace {
 
-constexpr std::size_t kTriedFlips = 200;       // to find flips of SRAM bits that parity must detect
-constexpr std::size_t kSecondFaults = 2;       // of each memory
+constexpr std::size_t kTriedFlips = 200;  // to find flips of SRAM bits that parity must detect
+constexpr std::size_t kSecondFaults = 1;  // of each memory
 constexpr std::uint64_t kFlipsSeed = 0x466C6970U;
 
 /// A set of faults that one lane has.
@@ -91,7 +91,8 @@ std::vector<FrameOutcome> run_sets(const GateNetlist& netlist, const Frame& fram
     }
     const std::vector<FrameOutcome> lanes =
         run_lanes(netlist, frame.input, frame.reference, faults, options.seed);
-    std::copy_n(lanes.begin() + kFirstFaultyLane, count, outcomes.begin() + static_cast<std::ptrdiff_t>(first));
+    std::copy_n(lanes.begin() + kFirstFaultyLane, count,
+                outcomes.begin() + static_cast<std::ptrdiff_t>(first));
     progress.advance();
   });
   return outcomes;
@@ -121,8 +122,8 @@ std::vector<CircuitFault> second_faults(const GateNetlist& netlist, const Frame&
     for (std::uint32_t bit = 0; bit < one.depth * one.width(); ++bit) {
       words.sites.push_back({SiteKind::kBit, memory, bit});
     }
-    for (const CircuitFault& fault : draw_events(words, kTriedFlips, frame.reference.clocks,
-                                                 options.seed ^ (kFlipsSeed + memory))) {
+    for (const CircuitFault& fault :
+         draw_events(words, kTriedFlips, frame.reference.clocks, options.seed ^ (kFlipsSeed + memory))) {
       tried.push_back({fault});
     }
   }
@@ -205,8 +206,8 @@ ArrayResult study_netlist(const GateNetlist& netlist, const MetricStudyOptions& 
   DrawnFaults events, stuck;
   for (std::size_t i = 0; i < strata.size(); ++i) {
     const FaultStratum& stratum = strata[i];
-    result.strata.push_back({stratum.part, stratum.element, stratum.repeated, stratum.sites.size(),
-                             stratum.full_sites, {}, {}});
+    result.strata.push_back(
+        {stratum.part, stratum.element, stratum.repeated, stratum.sites.size(), stratum.full_sites, {}, {}});
     events.add(draw_events(stratum, options.faults, room.reference.clocks, options.seed), i);
     stuck.add(draw_stuck(stratum, options.faults, options.seed), i);
   }

@@ -28,7 +28,8 @@ struct FaultCounts {
   bool operator==(const FaultCounts&) const = default;
 };
 
-/// Adds a fault. `self_test`: outcome of the self-test's frame, for a fault that is still there; else nullptr.
+/// Adds a fault. `self_test`: outcome of the self-test's frame, for a fault that is still there; else
+/// nullptr.
 void count_fault(FaultCounts& counts, const FrameOutcome& frame, const FrameOutcome* self_test);
 
 /// True if a fault that is always there is neither harmful nor found.

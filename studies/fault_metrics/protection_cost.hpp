@@ -25,6 +25,7 @@ struct ProtectionCost {
 
 /// Costs of a read-out and of its configuration `<readout>_parity`; none if one of them was not synthesised.
 /// Throws InputError if a report is missing or has no such column.
-std::optional<ProtectionCost> protection_cost(const std::filesystem::path& reports, const std::string& readout);
+std::optional<ProtectionCost> protection_cost(const std::filesystem::path& reports,
+                                              const std::string& readout);
 
 }  // namespace dtof

@@ -26,8 +26,9 @@ std::uint64_t digest(const std::filesystem::path& path) {
 }
 
 std::string counts_text(const FaultCounts& c) {
-  return fmt::format("{} {} {} {} {} {} {} {} {} {}", c.faults, c.harmful, c.beyond, c.by_parity, c.by_protocol,
-                     c.by_frame_check, c.by_self_test, c.undetected, c.undetected_beyond, c.latent);
+  return fmt::format("{} {} {} {} {} {} {} {} {} {}", c.faults, c.harmful, c.beyond, c.by_parity,
+                     c.by_protocol, c.by_frame_check, c.by_self_test, c.undetected, c.undetected_beyond,
+                     c.latent);
 }
 
 bool read_counts(std::istream& in, FaultCounts& c) {
@@ -39,8 +40,8 @@ bool read_counts(std::istream& in, FaultCounts& c) {
 }  // namespace
 
 std::string result_key(const MetricStudyOptions& options, const std::filesystem::path& netlist) {
-  return fmt::format("acquisitions {} faults {} seed {} netlist {:016x} program {:016x}", options.acquisitions,
-                     options.faults, options.seed, digest(netlist), digest(kProgram));
+  return fmt::format("acquisitions {} faults {} seed {} netlist {:016x} program {:016x}",
+                     options.acquisitions, options.faults, options.seed, digest(netlist), digest(kProgram));
 }
 
 void store_result(const std::filesystem::path& path, const std::string& key, const ArrayResult& result) {

@@ -23,9 +23,7 @@ struct ResultWord {
   [[nodiscard]] std::uint64_t position(std::uint64_t word) const {
     return low(word >> confidence_width, code_width + fraction_width);
   }
-  [[nodiscard]] std::uint64_t row(std::uint64_t word) const {
-    return low(word >> address_lsb(), row_width);
-  }
+  [[nodiscard]] std::uint64_t row(std::uint64_t word) const { return low(word >> address_lsb(), row_width); }
   [[nodiscard]] std::uint64_t column(std::uint64_t word) const {
     return low(word >> (address_lsb() + row_width), column_width);
   }

@@ -15,8 +15,7 @@ constexpr double kQuantile = 1.959963984540054;  // of the normal distribution, 
 Interval wilson(double share, double trials) {
   const double z2 = kQuantile * kQuantile;
   const double centre = share + z2 / (2.0 * trials);
-  const double half =
-      kQuantile * std::sqrt(share * (1.0 - share) / trials + z2 / (4.0 * trials * trials));
+  const double half = kQuantile * std::sqrt(share * (1.0 - share) / trials + z2 / (4.0 * trials * trials));
   const double scale = 1.0 + z2 / trials;
   return {std::clamp((centre - half) / scale, 0.0, share), std::clamp((centre + half) / scale, share, 1.0)};
 }
@@ -88,8 +87,7 @@ SafetyMetrics safety_metrics(const ArrayResult& result, FaultLife life) {
           .in_frame = share(
               [](const FaultCounts& c) { return c.by_parity + c.by_protocol + c.by_frame_check; }, harmful),
           .single_point = share(covered, all),
-          .latent =
-              share([](const FaultCounts& c) { return c.faults - c.undetected - c.latent; }, covered)};
+          .latent = share([](const FaultCounts& c) { return c.faults - c.undetected - c.latent; }, covered)};
 }
 
 }  // namespace dtof

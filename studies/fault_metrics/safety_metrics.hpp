@@ -30,13 +30,13 @@ double weighted_sum(std::span<const StratumResult> strata, FaultLife life, const
 
 /// Metrics of ISO 26262-5, annex C. With the same fault rate for all elements:
 struct SafetyMetrics {
-  Estimate harmful;         ///< harmful faults among all
-  Estimate detected;        ///< detected faults among the harmful ones
+  Estimate harmful;          ///< harmful faults among all
+  Estimate detected;         ///< detected faults among the harmful ones
   Estimate detected_beyond;  ///< the same among those that move a pixel by more than 3 %, or lose a pixel
-  Estimate in_logic;        ///< detected faults among the harmful ones of gates and flip-flops
-  Estimate in_frame;        ///< detected without the self-test among the harmful ones
-  Estimate single_point;    ///< 1 - undetected harmful faults / all faults
-  Estimate latent;          ///< 1 - latent faults / (all faults - undetected harmful faults); kStuck with parity
+  Estimate in_logic;         ///< detected faults among the harmful ones of gates and flip-flops
+  Estimate in_frame;         ///< detected without the self-test among the harmful ones
+  Estimate single_point;     ///< 1 - undetected harmful faults / all faults
+  Estimate latent;  ///< 1 - latent faults / (all faults - undetected harmful faults); kStuck with parity
 };
 SafetyMetrics safety_metrics(const ArrayResult& result, FaultLife life);
 

@@ -48,8 +48,7 @@ StudyInputs study_inputs(const GateNetlist& netlist, std::uint32_t acquisitions,
   }
   const RtlConfiguration configuration = netlist_configuration(netlist);
   StudyInputs inputs;
-  inputs.room =
-      frame_input(configuration, room_streams(netlist, acquisitions, seed), acquisitions);
+  inputs.room = frame_input(configuration, room_streams(netlist, acquisitions, seed), acquisitions);
   inputs.self_test.acquisitions = acquisitions;
   SelfTestLines lines(configuration, kSelfTestSeed);
   for (std::size_t i = 0; i < inputs.room.lines.size(); ++i) {

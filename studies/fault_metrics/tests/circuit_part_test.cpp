@@ -12,8 +12,9 @@ TEST(CircuitPart, FollowsTheInstancesOfTheName) {
             CircuitPart::kColumns);
   EXPECT_EQ(part("$flatten\\g_column[0].g_ez_pointer.u_column.\\u_pointer_builder.\\u_word_builder.$abc$1"),
             CircuitPart::kMemoryControl);
-  EXPECT_EQ(part("$flatten\\g_column[0].x.u_column.\\u_pointer_builder.\\u_word_builder.\\u_word_sram.$abc$1"),
-            CircuitPart::kParityCheck);
+  EXPECT_EQ(
+      part("$flatten\\g_column[0].x.u_column.\\u_pointer_builder.\\u_word_builder.\\u_word_sram.$abc$1"),
+      CircuitPart::kParityCheck);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\u_sram.\\u_words.$abc$1"), CircuitPart::kMemoryControl);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\g_pair[1].u_pair.$abc$1"), CircuitPart::kColumns);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.$abc$1"), CircuitPart::kMemoryControl);

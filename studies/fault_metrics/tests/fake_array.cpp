@@ -44,7 +44,7 @@ FakeArray::FakeArray() {
 
   // Lines: from the clock after start to the first clock without a line.
   busy = add_flip_flop();
-  const std::uint32_t ready = add_flip_flop();
+  ready = add_flip_flop();
   const Net take = add_gate(GateKind::kAnd, q(ready), line_valid);
   netlist.flip_flops[ready].d = add_gate(GateKind::kOr, start, take);
   const Net no_line = add_gate(GateKind::kNot, line_valid);
@@ -57,13 +57,16 @@ FakeArray::FakeArray() {
   Net shown = kLow;
   std::vector<Net> word(kConfidenceBits, kLow);
   for (std::size_t i = 0; i < kBits; ++i) {
-    const std::uint32_t bit = add_flip_flop(line + static_cast<Net>(i), take);
+    const Net timestamp = line + static_cast<Net>(i);
+    const std::uint32_t bit = add_flip_flop(kLow, take);
+    netlist.flip_flops[bit].d = add_gate(GateKind::kXor, q(bit), timestamp);
     data = i == 0 ? bit : data;
     word.push_back(q(bit));
-    stored = add_gate(GateKind::kXor, stored, line + static_cast<Net>(i));
+    stored = add_gate(GateKind::kXor, stored, timestamp);
     shown = add_gate(GateKind::kXor, shown, q(bit));
   }
-  parity = add_flip_flop(stored, take);
+  parity = add_flip_flop(kLow, take);
+  netlist.flip_flops[parity].d = add_gate(GateKind::kXor, q(parity), stored);
   column = add_flip_flop(kLow, kLow);
   error = add_flip_flop();
   word.push_back(kLow);  // row
@@ -79,10 +82,12 @@ FakeArray::FakeArray() {
   netlist.ports["result_tdata_o"] = word;
 }
 
-FrameInput fake_frame(Timestamp last) {
+FrameInput fake_frame(Timestamp result) {
+  constexpr Timestamp kFirst = 100;
+  constexpr Timestamp kSecond = 7;
   FrameInput input;
   input.acquisitions = 3;
-  input.lines = {{100}, {7}, {last}};
+  input.lines = {{kFirst}, {kSecond}, {static_cast<Timestamp>(result ^ kFirst ^ kSecond)}};
   return input;
 }
 

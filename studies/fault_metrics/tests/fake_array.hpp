@@ -6,19 +6,20 @@
 
 namespace dtof {
 
-/// An array of one pixel, drawn by hand: the pixel's result is its last timestamp, whose parity is stored and
-/// checked. With the ports of dtof_array. A frame of n lines takes n + 4 clocks:
-/// clock 0 start, then a line per clock, then result, done. `fill_q` ends the lines.
+/// An array of one pixel, drawn by hand: the pixel's result is the XOR of its timestamps, whose parity is
+/// stored and checked. With the ports of dtof_array. Clock 0 is that of start; then come a line per clock, a
+/// clock without a line, the result, done.
 struct FakeArray {
   GateNetlist netlist;
   // Indices of flip-flops.
   std::uint32_t busy = 0;
+  std::uint32_t ready = 0;   ///< on tdc_ready_o
   std::uint32_t data = 0;    ///< the lowest of ten
   std::uint32_t parity = 0;  ///< of the data
   std::uint32_t column = 0;  ///< bit of the result's address
   std::uint32_t valid = 0;   ///< the result is on the port
   std::uint32_t done = 0;
-  std::uint32_t error = 0;   ///< on error_o
+  std::uint32_t error = 0;  ///< on error_o
 
   FakeArray();
 
@@ -30,7 +31,7 @@ struct FakeArray {
   Net add_input(const char* name, std::size_t bits = 1);
 };
 
-/// A frame of the fake array whose last timestamp is `last`.
-FrameInput fake_frame(Timestamp last);
+/// A frame of three lines with this result.
+FrameInput fake_frame(Timestamp result);
 
 }  // namespace dtof

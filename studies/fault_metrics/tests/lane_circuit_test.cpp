@@ -70,8 +70,9 @@ TEST(LaneCircuit, EveryGateAndFlipFlop) {
   constexpr Net kB = 3;
   constexpr Net kSelect = 4;
   netlist.nets = 5;
-  for (const GateKind kind : {GateKind::kBuffer, GateKind::kNot, GateKind::kAnd, GateKind::kOr, GateKind::kXor,
-                              GateKind::kNand, GateKind::kNor, GateKind::kXnor, GateKind::kMux}) {
+  for (const GateKind kind :
+       {GateKind::kBuffer, GateKind::kNot, GateKind::kAnd, GateKind::kOr, GateKind::kXor, GateKind::kNand,
+        GateKind::kNor, GateKind::kXnor, GateKind::kMux}) {
     netlist.gates.push_back({.kind = kind, .a = kA, .b = kB, .select = kSelect, .y = netlist.nets++});
   }
   // Reset to 1 by a low level that needs the enable, and a low enable.

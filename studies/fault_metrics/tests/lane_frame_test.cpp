@@ -10,7 +10,7 @@
 namespace dtof {
 namespace {
 
-constexpr Timestamp kLast = 500;
+constexpr Timestamp kResult = 500;
 constexpr std::uint64_t kAfterLoad = 5;  // the result is on the port
 constexpr std::uint64_t kClocks = 6;     // start, three lines, a clock without a line, result; then done
 
@@ -28,14 +28,14 @@ class LaneFrame : public testing::Test {
   }
 
   FakeArray array_;
-  FrameInput input_ = fake_frame(kLast);
+  FrameInput input_ = fake_frame(kResult);
   FrameReference reference_ = run_reference(array_.netlist, input_, 1);
 };
 
-TEST_F(LaneFrame, TheReferenceIsTheLastTimestamp) {
+TEST_F(LaneFrame, TheReferenceIsTheXorOfTheTimestamps) {
   EXPECT_EQ(reference_.clocks, kClocks);
   ASSERT_EQ(reference_.results.size(), 1U);
-  EXPECT_EQ(reference_results(array_.netlist, reference_).front().code, kLast);
+  EXPECT_EQ(reference_results(array_.netlist, reference_).front().code, kResult);
 }
 
 TEST_F(LaneFrame, AFlippedBitOfAResultIsHarmfulAndFoundByItsParity) {
@@ -46,11 +46,21 @@ TEST_F(LaneFrame, AFlippedBitOfAResultIsHarmfulAndFoundByItsParity) {
             (FrameOutcome{.wrong_result = true, .parity_error = true}));
 }
 
-TEST_F(LaneFrame, AFlipBeforeTheBitIsWrittenIsHarmless) {
-  EXPECT_EQ(outcome(array_.data + 9, FaultAction::kFlip, 2), FrameOutcome());
+TEST_F(LaneFrame, AFlipAfterTheResultIsHarmless) {
+  EXPECT_EQ(outcome(array_.data + 9, FaultAction::kFlip, kClocks), FrameOutcome());
 }
 
-// 500 = 0b0111110100: a bit that is stuck at its own value in the last clock alone would be seen before.
+TEST_F(LaneFrame, AFlipBetweenTheLinesIsKept) {
+  EXPECT_EQ(outcome(array_.data + 9, FaultAction::kFlip, 2),
+            (FrameOutcome{.wrong_result = true, .beyond = true, .parity_error = true}));
+}
+
+// The array takes its first line a clock early, and every line once.
+TEST_F(LaneFrame, TheSourceFollowsTheArrayOfEachLane) {
+  EXPECT_EQ(outcome(array_.ready, FaultAction::kFlip, 0), FrameOutcome());
+}
+
+// Bits of 500 = 0b0111110100.
 TEST_F(LaneFrame, AStuckBitIsStuckInEveryClock) {
   EXPECT_EQ(outcome(array_.data + 2, FaultAction::kStuckHigh), FrameOutcome());
   EXPECT_TRUE(outcome(array_.data + 2, FaultAction::kStuckLow).wrong_result);

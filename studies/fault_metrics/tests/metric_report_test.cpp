@@ -19,18 +19,24 @@ std::vector<ArrayResult> two_arrays() {
   StratumResult gates{CircuitPart::kColumns, Element::kGate, Repeated::kColumn, 10, 1000, {}, {}};
   gates.events = {.faults = 100, .harmful = 10, .by_frame_check = 1, .undetected = 9};
   gates.stuck = {.faults = 100, .harmful = 80, .by_protocol = 8, .by_self_test = 70, .undetected = 2};
-  ArrayResult without{.readout = "ezpointer", .rows = 16, .columns = 4, .clocks = 1000, .strata = {gates, bits}};
+  ArrayResult without{
+      .readout = "ezpointer", .rows = 16, .columns = 4, .clocks = 1000, .strata = {gates, bits}};
   bits.events = {.faults = 100, .harmful = 50, .beyond = 50, .by_parity = 50};
   bits.stuck = {.faults = 100, .harmful = 50, .by_parity = 50};
   gates.stuck.latent = 5;
-  ArrayResult with{.readout = "ezpointer", .parity = true, .rows = 16, .columns = 4, .clocks = 1002,
+  ArrayResult with{.readout = "ezpointer",
+                   .parity = true,
+                   .rows = 16,
+                   .columns = 4,
+                   .clocks = 1002,
                    .strata = {gates, bits}};
   return {without, with};
 }
 
 std::map<std::string, ProtectionCost> cost(double mm2) {
-  return {{"ezpointer", {.without = {.mm2 = 1.0, .mw = 120.0, .fmax_mhz = 352.0},
-                         .with = {.mm2 = mm2, .mw = 123.5, .fmax_mhz = 340.0}}}};
+  return {{"ezpointer",
+           {.without = {.mm2 = 1.0, .mw = 120.0, .fmax_mhz = 352.0},
+            .with = {.mm2 = mm2, .mw = 123.5, .fmax_mhz = 340.0}}}};
 }
 
 std::string page(const std::vector<ArrayResult>& results, double mm2 = 1.03) {
@@ -54,17 +60,23 @@ TEST(MetricReport, HasTheMetricsOfItsResults) {
 
 TEST(MetricReport, HasTheMeansAndTheParts) {
   const std::string text = page(two_arrays());
-  EXPECT_THAT(text, HasSubstr("| ezPointer | yes    | single event |          97.83 |    0.00 |     0.22 |         - |    1.96 |"));
-  EXPECT_THAT(text, HasSubstr("| ezPointer | yes    | stuck-at     |          84.91 |    1.51 |     0.00 |     13.21 |    0.38 |"));
-  EXPECT_THAT(text, HasSubstr("| ezPointer | no     | stuck-at     |           0.00 |    1.51 |     0.00 |     98.11 |    0.38 |"));
-  EXPECT_THAT(text, HasSubstr("| ezPointer | gates of columns |     1000 |                     10.00 |       10.00 |        100.00 |"
+  EXPECT_THAT(text, HasSubstr("| ezPointer | yes    | single event |          97.83 |    0.00 |     0.22 |   "
+                              "      - |    1.96 |"));
+  EXPECT_THAT(text, HasSubstr("| ezPointer | yes    | stuck-at     |          84.91 |    1.51 |     0.00 |   "
+                              "  13.21 |    0.38 |"));
+  EXPECT_THAT(text, HasSubstr("| ezPointer | no     | stuck-at     |           0.00 |    1.51 |     0.00 |   "
+                              "  98.11 |    0.38 |"));
+  EXPECT_THAT(text, HasSubstr("| ezPointer | gates of columns |     1000 |                     10.00 |       "
+                              "10.00 |        100.00 |"
                               "                80.00 |       97.50 |        100.00 |      5.00 |"));
-  EXPECT_THAT(text, HasSubstr("| ezPointer | SRAM words       |     9000 |                     50.00 |      100.00 |          0.00 |"));
+  EXPECT_THAT(text, HasSubstr("| ezPointer | SRAM words       |     9000 |                     50.00 |      "
+                              "100.00 |          0.00 |"));
 }
 
 TEST(MetricReport, SaysWhichGoalsAreMet) {
   const MetricReport report = report_metrics(two_arrays(), cost(1.03), {}, "test");
-  EXPECT_THAT(report.conclusions, HasSubstr("ezPointer with parity, single event: detected harmful faults 98.04"));
+  EXPECT_THAT(report.conclusions,
+              HasSubstr("ezPointer with parity, single event: detected harmful faults 98.04"));
   EXPECT_THAT(report.conclusions, HasSubstr("Most of the others: gates of columns (100 %)"));
   EXPECT_THAT(report.conclusions, HasSubstr("parity takes 3.00 % of the area, the goal is met"));
   EXPECT_THAT(report_metrics(two_arrays(), cost(1.05), {}, "test").conclusions,
@@ -78,8 +90,9 @@ TEST(MetricReport, SaysWhichGoalsAreMet) {
 }
 
 TEST(MetricReport, HasTheCost) {
-  EXPECT_THAT(page(two_arrays()), HasSubstr("1.000 / 1.030 |    3.00 |     120.0 / 123.5 |          352 / 340 |"
-                                            "                      1000 / 1002 |"));
+  EXPECT_THAT(page(two_arrays()),
+              HasSubstr("1.000 / 1.030 |    3.00 |     120.0 / 123.5 |          352 / 340 |"
+                        "                      1000 / 1002 |"));
 }
 
 TEST(MetricReport, HasEveryStratumInTheTable) {

@@ -39,7 +39,8 @@ FaultCounts sum(const ArrayResult& result, CircuitPart part, bool stuck) {
   return total;
 }
 
-// A word with one wrong bit has the wrong parity: what is harmful is detected. Nothing without parity detects it.
+// A word with one wrong bit has the wrong parity: what is harmful is detected. Nothing without parity detects
+// it.
 TEST_F(NetlistFaults, ParityDetectsEveryHarmfulBit) {
   const ArrayResult with = study_netlist(script_netlist("ezpointer_parity"), kSmall);
   const ArrayResult without = study_netlist(script_netlist("ezpointer"), kSmall);
@@ -53,7 +54,8 @@ TEST_F(NetlistFaults, ParityDetectsEveryHarmfulBit) {
     EXPECT_EQ(sum(with, CircuitPart::kParityBits, stuck).harmful, 0U);
     EXPECT_EQ(sum(with, CircuitPart::kParityCheck, stuck).harmful, 0U);
   }
-  EXPECT_EQ(sum(without, CircuitPart::kWords, false).undetected, sum(without, CircuitPart::kWords, false).harmful);
+  EXPECT_EQ(sum(without, CircuitPart::kWords, false).undetected,
+            sum(without, CircuitPart::kWords, false).harmful);
 }
 
 TEST_F(NetlistFaults, TheSelfTestFindsMostStuckLogicAndNoEvent) {
@@ -125,7 +127,8 @@ TEST_F(NetlistFaults, FlippedBitsAreThoseOfTheRtl) {
   }
   const std::vector<FrameOutcome> outcomes = run_lanes(netlist, input, reference, lanes, 1);
 
-  RtlReadout rtl(find_rtl_configuration(netlist_configuration(netlist).parameters, netlist.rows, netlist.columns));
+  RtlReadout rtl(
+      find_rtl_configuration(netlist_configuration(netlist).parameters, netlist.rows, netlist.columns));
   const std::vector<ColumnStream> columns = streams(netlist, input);
   const std::vector<PixelResult> good = rtl.run(columns, input.acquisitions, {}).results;
   std::size_t harmful = 0;

@@ -12,8 +12,9 @@ namespace {
 class ProtectionCostTest : public test::IoTest {
  protected:
   void write_reports() const {
-    (void)write("area.csv", "configuration,readout,total_mm2\nezpointer,ezpointer,1.25\nezpointer_parity,ezpointer,1.3\n"
-                            "sifh,sifh,15\n");
+    (void)write("area.csv",
+                "configuration,readout,total_mm2\nezpointer,ezpointer,1.25\nezpointer_parity,ezpointer,1.3\n"
+                "sifh,sifh,15\n");
     (void)write("timing.csv",
                 "configuration,corner,fmax_mhz,logic_mw,sram_mw,clock_mw\n"
                 "ezpointer,slow,352,,,\nezpointer,typical,1000,30,40,50\n"

@@ -12,10 +12,19 @@ namespace {
 
 ArrayResult kept_result() {
   StratumResult one{CircuitPart::kEngines, Element::kFlipFlop, Repeated::kEngine, 7, 42.5, {}, {}};
-  one.events = {.faults = 9, .harmful = 8, .beyond = 7, .by_parity = 1, .by_protocol = 2, .by_frame_check = 3,
-                .by_self_test = 0, .undetected = 2, .undetected_beyond = 1, .latent = 0};
+  one.events = {.faults = 9,
+                .harmful = 8,
+                .beyond = 7,
+                .by_parity = 1,
+                .by_protocol = 2,
+                .by_frame_check = 3,
+                .by_self_test = 0,
+                .undetected = 2,
+                .undetected_beyond = 1,
+                .latent = 0};
   one.stuck = {.faults = 5, .harmful = 4, .by_self_test = 4, .latent = 1};
-  return {.readout = "poolpointer", .parity = true, .rows = 16, .columns = 4, .clocks = 99, .strata = {one, one}};
+  return {
+      .readout = "poolpointer", .parity = true, .rows = 16, .columns = 4, .clocks = 99, .strata = {one, one}};
 }
 
 class ResultStore : public test::IoTest {};

@@ -18,8 +18,8 @@ StratumResult stratum(Element element, double full_sites, const FaultCounts& eve
   return result;
 }
 
-// 10,000 bits of which half are harmful and all detected, 1,000 gates of which a tenth are harmful and a quarter
-// of those detected.
+// 10,000 bits of which half are harmful and all detected, 1,000 gates of which a tenth are harmful and a
+// quarter of those detected.
 ArrayResult weighted_array() {
   return {.readout = "ezpointer",
           .parity = true,
@@ -27,7 +27,11 @@ ArrayResult weighted_array() {
               stratum(Element::kBit, 10000, {.faults = 100, .harmful = 50, .beyond = 40, .by_parity = 50},
                       {.faults = 100, .harmful = 50, .by_parity = 30, .by_self_test = 20}),
               stratum(Element::kGate, 1000,
-                      {.faults = 200, .harmful = 20, .beyond = 10, .by_frame_check = 5, .undetected = 15,
+                      {.faults = 200,
+                       .harmful = 20,
+                       .beyond = 10,
+                       .by_frame_check = 5,
+                       .undetected = 15,
                        .undetected_beyond = 10},
                       {.faults = 100, .harmful = 60, .by_self_test = 50, .undetected = 10, .latent = 9}),
           }};
@@ -47,7 +51,7 @@ TEST(SafetyMetrics, AreWeightedByTheElements) {
   EXPECT_NEAR(stuck.latent.value, 1 - 90.0 / 10900, 1e-12);
 }
 
-// Of one stratum, the share and its interval are Wilson's.
+// The share of one stratum alone has the interval of estimate_share.
 TEST(SafetyMetrics, OfOneStratumHaveWilsonsInterval) {
   const FaultCounts counts{.faults = 100, .harmful = 20, .by_parity = 20};
   const std::vector<StratumResult> one = {stratum(Element::kBit, 700, counts)};
@@ -58,8 +62,8 @@ TEST(SafetyMetrics, OfOneStratumHaveWilsonsInterval) {
   EXPECT_NEAR(share.value, expected.value, 1e-12);
   EXPECT_NEAR(share.interval.low, expected.interval.low, 1e-9);
   EXPECT_NEAR(share.interval.high, expected.interval.high, 1e-9);
-  const Estimate certain =
-      weighted_share(one, FaultLife::kEvent, [](const FaultCounts& c) { return c.by_parity; }, harmful);
+  const Estimate certain = weighted_share(
+      one, FaultLife::kEvent, [](const FaultCounts& c) { return c.by_parity; }, harmful);
   EXPECT_DOUBLE_EQ(certain.value, 1.0);
   EXPECT_NEAR(certain.interval.low, estimate_share(20, 20).interval.low, 1e-9);
 }
