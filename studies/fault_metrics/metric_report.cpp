@@ -38,9 +38,12 @@ drawn for each life of a fault and each kind of element of each part. Command: `
   "Beyond 3 %" are harmful faults that move the position of a pixel by more than 3 %, or lose a pixel.
 * **Single-point fault metric** (SPFM) and **latent fault metric** (LFM) are those of ISO 26262-5, annex C:
   SPFM = 1 - undetected harmful faults / all faults; LFM = 1 - latent faults / (all faults - undetected harmful faults). A latent fault is
-  harmless, found neither by the frame nor by the self-test, and hides a flipped bit of an SRAM that parity otherwise detects.
+  harmless, found neither by the frame nor by the self-test, and hides one of the flipped bits that parity otherwise detects. A flip of each SRAM
+  is tried.
 * **Weights**: every gate, flip-flop and stored bit has the same fault rate. Shares are those of an array of {} columns of {} pixels: elements
   of columns count {} times per column of the small array, stored bits in proportion to the pixels, and the control once.
+* **Not in the netlist**: TDCs, clock and reset trees, delays, bridges between wires, and what surrounds the array in `dtof_subsystem`. A fault
+  of two bits of a word, which parity does not detect, is no single fault.
 * In brackets: 95 % intervals (Wilson's, with the number of faults that would have the same variance in one stratum).
 
 ## Metrics
