@@ -5,17 +5,15 @@ import json
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+import fault_netlists
+from dtof_synth.configuration import load
+from dtof_synth.errors import FlowError
 
-import fault_netlists  # noqa: E402
-from dtof_synth.configuration import load  # noqa: E402
-from dtof_synth.errors import FlowError  # noqa: E402
+ROOT = Path(__file__).resolve().parents[2]
 
 PROGRAM = ROOT / "scripts" / "fault_netlists.py"
 
