@@ -212,9 +212,24 @@ def pool(tables: Tables) -> Figures:
     return found
 
 
+def fault_metrics(tables: Tables) -> Figures:
+    """Shares of detected faults and the metrics of ISO 26262, of single events and of stuck-at faults."""
+    found: Figures = {}
+    columns = {"harmful, %": "harmful", "detected of them, %": "detected", "of those in logic, %": "detected_in_logic",
+               "beyond 3 %, %": "detected_beyond_3", "SPFM, %": "spfm", "LFM, %": "lfm"}
+    for row in table_of(tables.page("fault_metrics.md"), "Metrics"):
+        name = tables.name(row["read-out"]) + ("_parity" if row["parity"] == "yes" else "")
+        life = "event" if row["fault"] == "single event" else "stuck"
+        for column, figure in columns.items():
+            if cell := re.fullmatch(r"([\d.]+) \(([\d.]+) to ([\d.]+)\)", row[column]):
+                found[f"fault_metrics.{name}.{life}_{figure}"] = Figure(cell[1], "%", (cell[2], cell[3]))
+    return found
+
+
 MAKERS: dict[str, Callable[[Tables], Figures]] = {
     "synth": synth, "growth": growth, "subsystem": subsystem, "power": power, "frame": frame, "frames": frames, "pareto": pareto, "scenes": scenes,
-    "reproduction": reproduction, "rivals": rivals, "pool": pool}
+    "reproduction": reproduction, "rivals": rivals, "pool": pool,
+    "fault_metrics": fault_metrics}
 
 
 def figures(root: Path, report: str) -> Figures:
