@@ -388,7 +388,7 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
       {"SELF_TEST", number(request.self_test ? 1 : 0)},
       {"SELF_TEST_SEED", fmt::format("{:08x}", self_test.seed)},
       {"SELF_TEST_EXPECTED", fmt::format("{:08x}", self_test.expected)},
-      {"MOST_CLOCKS", fmt::format("{}.0", (request.self_test ? 4 : 2) * clocks + 20000)},
+      {"MOST_CLOCKS", number((request.self_test ? 4 : 2) * clocks + 20000)},
       {"PERIOD", fmt::format("{:.4f}", 1e9 / request.budget.clock_hz)},
       {"MHZ", fmt::format("{:g}", request.budget.clock_hz * 1e-6)},
       {"SCENE", std::string(scene_name(request.scene))},
