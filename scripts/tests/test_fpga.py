@@ -74,8 +74,8 @@ class Fpga(unittest.TestCase):
         package = (ROOT / "hdl/common/dtof_readouts.svh").read_text(encoding="utf-8")
         for design in fpga.DESIGNS:
             name = "".join(word[0].upper() + word[1:] for word in design.readout.split())
-            arguments = [f"k{name}", str(design.parameters["COLUMNS"]),
-                         *(f"{parameter}={value}" for parameter, value in design.settings.items())]  # fmt: skip
+            size = ";".join([f"k{name}", *(str(design.parameters[parameter]) for parameter in ("COLUMNS", "ROWS", "CLOCKS_PER_BIT"))])
+            arguments = [f'"{size}"', *(f"{parameter}={value}" for parameter, value in design.settings.items())]
             self.assertIn(f"dtof_demonstrator({design.name} {' '.join(arguments)})", expected)
             if "READOUT" in design.settings:
                 number = f"READOUT_{design.readout.split()[0].upper()} = {design.settings['READOUT']};"  # lean is poolPointer with other parameters
@@ -83,7 +83,8 @@ class Fpga(unittest.TestCase):
 
     def test_the_pool_readout_is_lean(self):
         lean = readouts.load().readouts["poolpointer-lean"].defaults
-        own = fpga.parameters()
+        with mock.patch.object(fpga, "TOP", "demonstrator_core"):
+            own = fpga.parameters()
         named = ["GROUP_SIZE", "LABELS", "OFFSET_BITS", "ADVANTAGE_WIDTH", "POINTER_SHIFT", "RIVAL_MOVES", "TRACK_SHARE"]
         self.assertEqual({name: own[name] for name in named}, {name: int(lean[name]) for name in named})
 

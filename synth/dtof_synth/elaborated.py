@@ -29,6 +29,7 @@ from .errors import FlowError
 
 BUILD = ROOT / "build" / "elaborated"
 Named = dict[str, Configuration]
+_MAKE_OTHER_REPORTS = {"scale.py"}  # of arrays that are not in configurations.toml
 _TEXT_ONLY = {"title", "enumerator", "summary", "style", "model", "choices", "defaults", "memories", "word"}  # of a read-out
 
 
@@ -93,7 +94,7 @@ def _work(job: tuple[Configuration, Path, Path, bool]) -> str:
 def read_by_the_flow(root: Path) -> list[str]:
     """Parameters that the flow's Python names. What no file names enters a report by elaboration alone."""
     known = readouts.load().parameters.keys()
-    return sorted({node.value for file in (root / "synth" / "dtof_synth").rglob("*.py")
+    return sorted({node.value for file in (root / "synth" / "dtof_synth").rglob("*.py") if file.name not in _MAKE_OTHER_REPORTS
                    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
                    if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value in known})
 
