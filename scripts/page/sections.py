@@ -63,6 +63,7 @@ OTHERS = (
     Report("layout", "Layout", "layout", "layout.md",
            says="columns placed and routed in OSU 0.18 um, and their wires compared with the wire-load model"),
     Report("fpga", "FPGA demonstrator", "fpga", "fpga.md", says="an iCE40 with hisPointer and with poolPointer"),
+    Report("shuttle", "Chips in open silicon", "shuttle", "shuttle.md", says="two small chips in IHP's 130 nm cells: area, timing in three corners"),
     Report("fpga_check", "Small subsystems on FPGAs", "fpga-check", "fpga_check.md",
            says="block RAMs, look-up tables and flip-flops on four families"),
     Report("mutants", "Mutants", "mutate", "mutants.md", says="whether the tests notice small changes of RTL and models"),
