@@ -2,9 +2,9 @@
 """The start page, the bar with the navigation, and the search: their parts, and in a browser, from a disk."""
 
 import json
+import re
 import tempfile
 import time
-import re
 import unittest
 from pathlib import Path
 
