@@ -91,6 +91,11 @@ class Simulation(unittest.TestCase):
         self.assertAlmostEqual(value, 21.0)
         self.assertAlmostEqual(error, 0.25)
 
+    def test_a_line_never_falls(self) -> None:
+        value, error = scale.extrapolated({10: 3.0, 20: 3.0, 30: 2.4}, 100)
+        self.assertAlmostEqual(value, 2.4)
+        self.assertAlmostEqual(error, 0.0)
+
     def test_a_whole_array_is_not_extrapolated(self) -> None:
         self.assertEqual(scale.extrapolated({10: 3.0, 15: 4.0}, 15), (4.0, 0.0))
 
