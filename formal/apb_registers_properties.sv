@@ -42,6 +42,7 @@ module apb_registers_properties #(
     input logic [31:0] frame_count_i,
     input logic [31:0] frame_cycles_i,
     input logic [31:0] frame_crc_i,
+    input logic        starting_i,
     input logic        frame_crc_pending_i,
     input logic [31:0] lost_lines_i,
     input logic [31:0] lost_acquisitions_i,
@@ -70,6 +71,15 @@ module apb_registers_properties #(
   assign rst_n = checking && !reset_i;
   always_ff @(posedge clk_i) begin
     checking <= 1'b1;
+  end
+
+  // The array's reset after rst_ni takes eleven clocks.
+  localparam logic [3:0] STARTING_CLOCKS = 4'd11;
+  logic [3:0] started_q;
+  logic starting;
+  assign starting = starting_i && started_q < STARTING_CLOCKS;
+  always_ff @(posedge clk_i) begin
+    started_q <= !rst_n ? 4'd0 : started_q + 4'(started_q < STARTING_CLOCKS);
   end
 
   localparam int MOST_RELEASE = 5;
@@ -127,6 +137,7 @@ module apb_registers_properties #(
   ) u_dut (
       .clk_i              (clk_i),
       .rst_ni             (rst_n),
+      .starting_i         (starting),
       .psel_i             (psel_i),
       .penable_i          (penable_i),
       .pwrite_i           (pwrite_i),
@@ -381,7 +392,7 @@ module apb_registers_properties #(
   assign request = {pwrite_i, paddr_i, pwdata_i, pstrb_i};
   always_ff @(posedge clk_i) begin
     sampled_q <= samples;
-    waits_q <= samples && !pwrite_i && (frame_crc_pending_i || (wrote_q && !waits_q));
+    waits_q <= samples && (starting || (!pwrite_i && (frame_crc_pending_i || (wrote_q && !waits_q))));
     wrote_q <= writes;
     requests_q <= samples;
     request_q <= request;
@@ -436,7 +447,7 @@ module apb_registers_properties #(
   end
 
   apb_rules #(
-      .MOST_WAITS(3)
+      .MOST_WAITS(3 + 32'(STARTING_CLOCKS))
   ) u_apb_rules (
       .clk_i    (clk_i),
       .rst_ni   (rst_n),

@@ -21,7 +21,7 @@ module subsystem_properties #(
     parameter int PRIOR = 0,
     parameter int CLOCK_WAITS = 1,
     parameter int BUFFER_LINES = 2,
-    parameter int MOST_CLOCKS = 62,  // from the first write to the end of two frames, without waits of source and sink
+    parameter int MOST_CLOCKS = 62,  // from the first write to the end of two frames, without any waits
     parameter int MOST_WAITS = 4,
     localparam int TDATA_WIDTH = 8 * ((COLUMNS * NP + 7) / 8)
 ) (
@@ -44,15 +44,15 @@ module subsystem_properties #(
     checking <= 1'b1;
   end
 
-  // Writes of the registers after reset, two clocks each. The last one starts continuous frames.
+  // Writes of the registers after reset, two clocks each, which the first one's wait states precede. The last one starts continuous frames.
   localparam int WRITES = (POOL != 0) ? 5 : 2;
   logic [11:0] clock_q;
-  logic psel, penable;
+  logic psel, penable, pready;
   logic [11:0] paddr;
   logic [31:0] pwdata;
 
   always_ff @(posedge clk_i) begin
-    clock_q <= !checking ? '0 : clock_q + 1'b1;
+    clock_q <= !checking ? '0 : clock_q + 12'(!(psel && penable) || pready);
   end
 
   assign psel = (32'(clock_q) < 2 * WRITES);
@@ -126,7 +126,7 @@ module subsystem_properties #(
 
   logic m_tuser, m_tlast;
   logic [63:0] m_tdata;
-  logic pready, pslverr, irq, shot;
+  logic pslverr, irq, shot;
   logic [31:0] prdata;
   logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] cfg;
 
@@ -295,7 +295,7 @@ module subsystem_properties #(
   );
 
   logic unused;
-  assign unused = ^{pready, pslverr, prdata, irq, shot, cfg};
+  assign unused = ^{pslverr, prdata, irq, shot, cfg};
 
 endmodule
 

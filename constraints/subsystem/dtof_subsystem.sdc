@@ -30,9 +30,11 @@ set_max_transition [expr {$edge_share * $period}] [current_design]
 set_false_path -from [get_ports sram_cfg_i*]
 set_false_path -to [get_ports sram_cfg_o*]
 
-# When rst_ni rises, the flip-flop of dtof_array_reset still keeps the array in reset, and releases it a clock later. So no release comes from
-# rst_ni itself.
+# When rst_ni rises, the flip-flop of dtof_array_reset still keeps the array in reset. So no release comes from rst_ni itself. After the release the
+# array's clock is stopped for three clocks: the release has four periods. The last edge before the clock stops is that of the release.
 set_false_path -from [get_ports rst_ni] -through [get_pins u_array_reset/array_rst_no]
+set_multicycle_path 4 -setup -through [get_pins u_array_reset/array_rst_no]
+set_multicycle_path 3 -hold -through [get_pins u_array_reset/array_rst_no]
 
 # The scan mode is constant while the subsystem works.
 set_false_path -from [get_ports scan_mode_i]

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The registers of dtof_subsystem behind an APB4 port (hdl/subsystem/registers.toml; table in docs/user/integration.md).
 //
-// A transfer takes two clocks; a read may have up to three wait states. pslverr_o reports an access to an offset without a register, a write to a
-// register without a writable bit in this configuration, and a write of 1 to a bit of a setting or command that this configuration
-// does not have. Such an access writes nothing. pstrb_i selects bytes; there is no pprot.
+// A transfer takes two clocks; a read may have up to three wait states, and every transfer waits while starting_i is high. pslverr_o reports
+// an access to an offset without a register, a write to a register without a writable bit in this configuration, and a write of 1 to a bit
+// of a setting or command that this configuration does not have. Such an access writes nothing. pstrb_i selects bytes; there is no pprot.
 // Settings become valid together, with COMMIT, START or a self-test. CONTROL, IRQ_ENABLE, WATCHDOG, SHOT_SEED, SELF_TEST_SEED and
 // SELF_TEST_EXPECTED are valid at once. If software clears a bit in the clock of a new event, the bit stays set.
 // Schedule: clock 0 is APB's setup, in which a read samples; clock 1 is its access, with prdata_o from flip-flops. A write takes effect at the end
@@ -60,6 +60,7 @@ module dtof_apb_registers #(
     input  logic                 clk_i,
     input  logic                 rst_ni,
     // APB4
+    input  logic                 starting_i,     // the array's reset after rst_ni is not over yet
     input  logic                 psel_i,
     input  logic                 penable_i,
     input  logic                 pwrite_i,
@@ -171,7 +172,7 @@ module dtof_apb_registers #(
       wrote_q <= 1'b0;
     end else begin
       armed_q <= setup;
-      waits_q <= setup && !pwrite_i && (frame_crc_pending_i || (!penable_i && wrote_q));
+      waits_q <= setup && (starting_i || (!pwrite_i && (frame_crc_pending_i || (!penable_i && wrote_q))));
       wrote_q <= write;
     end
   end

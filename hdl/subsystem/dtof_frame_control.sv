@@ -27,7 +27,7 @@ module dtof_frame_control #(
     input  logic                 rst_ni,
     input  logic                 start_i,
     input  logic                 abort_i,
-    input  logic                 resetting_i,         // the array's reset after abort_i, or a self-test's comparison, is not over yet
+    input  logic                 resetting_i,         // the array's reset, or a self-test's comparison, is not over yet
     input  logic                 continuous_i,
     input  logic [ACQ_WIDTH-1:0] acquisitions_i,
     input  logic [ACQ_WIDTH-1:0] coarse_end_i,
@@ -40,7 +40,7 @@ module dtof_frame_control #(
     input  logic                 done_i,              // last clock of the array's frame
     input  logic                 frame_i,             // the sink has taken the frame's last result
     output logic                 running_o,           // a frame is in progress, or a continuous frame is about to begin
-    output logic                 busy_o,              // running_o, or the array's reset after abort_i is not over yet
+    output logic                 busy_o,              // running_o or resetting_i
     output logic                 start_ignored_o,     // these three outputs are high for one clock
     output logic                 illegal_schedule_o,
     output logic                 aborted_o,           // abort_i came during a frame

@@ -202,7 +202,7 @@ module dtof_subsystem #(
   logic [255:0] coarse_template;
   logic start, flush, abort, continuous, second, amplitude, raw, short_words, smooth, prior, begin_frame, running, busy, done, frame;
   logic start_ignored, illegal_schedule, underrun, short_acquisition, long_acquisition, overrun, counter_full, aborted;
-  logic timeout, stalled, resetting, in_reset, array_rst_n, flushes;
+  logic timeout, stalled, resetting, in_reset, array_rst_n, stream_rst_n, flushes;
   logic [23:0] watchdog;
   logic [15:0] shot_seed, shot_state;
   logic [2:0] shot_bits;
@@ -265,6 +265,7 @@ module dtof_subsystem #(
   ) u_registers (
       .clk_i             (clk_i),
       .rst_ni            (rst_ni),
+      .starting_i        (starting),
       .psel_i            (psel_i),
       .penable_i         (penable_i),
       .pwrite_i          (pwrite_i),
@@ -367,14 +368,28 @@ module dtof_subsystem #(
   );
 
   dtof_array_reset u_array_reset (
-      .clk_i       (clk_i),
-      .rst_ni      (rst_ni),
-      .scan_mode_i (scan_mode_i),
-      .abort_i     (abort),
-      .busy_o      (resetting),
-      .reset_o     (in_reset),
-      .array_rst_no(array_rst_n)
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .scan_mode_i  (scan_mode_i),
+      .abort_i      (abort),
+      .busy_o       (resetting),
+      .reset_o      (in_reset),
+      .array_rst_no (array_rst_n),
+      .stream_rst_no(stream_rst_n)
   );
+
+  // The array's reset after rst_ni: the first access to a register waits for its end.
+  logic starting, starting_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      starting_q <= 1'b1;
+    end else begin
+      starting_q <= starting;
+    end
+  end
+
+  assign starting = starting_q && resetting;
 
   // A self-test begins when all words have left, so that the words behind its begin are its own.
   assign test_refused = self_test && words_left;
@@ -625,26 +640,17 @@ module dtof_subsystem #(
       .line_o      (timestamps)
   );
 
-  // The array. Its clock is stopped between frames, and while a line is late inside an acquisition. During and after a reset the clock
-  // runs until the pipelines hold no data from before. While the gate suppresses a clock edge, the array's outputs have no effect: they
+  // The array. Its clock is stopped between frames, and while a line is late inside an acquisition. In a reset the clock runs, so
+  // that the pipelines hold no data from before. While the gate suppresses a clock edge, the array's outputs have no effect: they
   // are still there in the next clock. If the gate does not work, the array's assertion a_contiguous_acquisition fails.
 
   logic array_clk, array_busy, array_done, array_counter_full, array_damaged;
-  logic [7:0] settling_q;
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      settling_q <= '1;
-    end else begin
-      settling_q <= settling_q << 1;
-    end
-  end
 
   dtof_clock_gate #(
       .NEEDED(CLOCK_WAITS)
   ) u_array_clock (
       .clk_i      (clk_i),
-      .enable_i   (((begin_frame || array_busy) && !array_waits) || in_reset || settling_q[7]),
+      .enable_i   (((begin_frame || array_busy) && !array_waits) || in_reset),
       .scan_mode_i(scan_mode_i),
       .clk_o      (array_clk)
   );
@@ -789,7 +795,7 @@ module dtof_subsystem #(
           .CONFIDENCE_WIDTH(RESULT_CONFIDENCE_WIDTH)
       ) u_target_words (
           .clk_i     (clk_i),
-          .rst_ni    (array_rst_n),
+          .rst_ni    (stream_rst_n),
           .both_i    (frame_second_q),
           .s_tvalid_i(result_tvalid),
           .s_tready_o(result_tready),
@@ -802,8 +808,8 @@ module dtof_subsystem #(
           .m_tlast_o (target_tlast)
       );
     end else begin : g_one_target
-      logic unused_second;
-      assign unused_second = second;
+      logic unused_here;
+      assign unused_here = ^{second, stream_rst_n};
       assign result_tready = target_tready;
       assign target_tvalid = result_tvalid;
       assign target_tdata = result_tdata;
@@ -909,7 +915,7 @@ module dtof_subsystem #(
       logic [ROW_WIDTH-1:0] row;
       logic second_word;
 
-      assign output_rst_n = array_rst_n;
+      assign output_rst_n = stream_rst_n;
       assign output_cut = 1'b0;
       assign words_left = word_tvalid || !word_tready;
 

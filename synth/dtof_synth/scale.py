@@ -13,6 +13,7 @@ import csv
 import io
 import json
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -27,7 +28,7 @@ from . import technology as technologies
 from .batch import Job
 from .configuration import Configuration
 from .errors import FlowError
-from .run import TARGET_MHZ, Result, Technology
+from .run import TARGET_MHZ, Result, Technology, retimed
 
 from figures.small import is_small, written_root
 
@@ -86,6 +87,7 @@ class Whole:
     fmax_slow: float
     start: str  # of the slowest path
     end: str
+    fmax_released: float  # if the release of the reset has as many periods as in dtof_subsystem
 
 
 def array(base: Configuration, columns: int, rows: int, of_columns: int = 0) -> Configuration:
@@ -124,6 +126,34 @@ def synthesised(item: Configuration, kit: Technology, say: Callable[[str], None]
         result = run(Job(item, ("slow",), most_attempts=1))
     say(f"{item.name}: {result.total_mm2:.2f} mm2, {result.timing['slow'].fmax_mhz:.0f} MHz")
     return result
+
+
+def release_periods(constraints: str) -> tuple[int, int]:
+    """(periods that the release of an array's reset has in dtof_subsystem, multiplier of its hold check), from the subsystem's constraints."""
+    found = [re.search(rf"^set_multicycle_path (\d+) -{kind} -through \[get_pins u_array_reset/array_rst_no\]$", constraints, re.MULTILINE)
+             for kind in ("setup", "hold")]
+    if not all(found):
+        raise FlowError("dtof_subsystem.sdc: the release of the array's reset has no number of periods")
+    setup, hold = (int(one[1]) for one in found if one)
+    return setup, hold
+
+
+def released_constraints(array_constraints: str, subsystem_constraints: str) -> str:
+    """Constraints of an array whose reset is released as in dtof_subsystem."""
+    setup, hold = release_periods(subsystem_constraints)
+    return (f"{array_constraints}\nset_multicycle_path {setup} -setup -from [get_ports rst_ni]\n"
+            f"set_multicycle_path {hold} -hold -from [get_ports rst_ni]\n")
+
+
+def released(result: Result, kit: Technology) -> float:
+    """The clock in MHz, slow corner, of an array that `synthesised` left, if its reset is released as in dtof_subsystem."""
+    folder = BUILD / "runs" / result.configuration.name
+    file = folder / "released.sdc"
+    texts = ((ROOT / "constraints" / name).read_text(encoding="utf-8") for name in ("dtof.sdc", "subsystem/dtof_subsystem.sdc"))
+    file.write_text(released_constraints(*texts), encoding="utf-8")
+    report = retimed(result, kit, folder, kit.slow.path, kit.kit / "sram40_slow.lib", "sta_released.log", ("nominal", "closing"),
+                     "reset released as in dtof_subsystem", settings={"constraints": file})
+    return report.timing().fmax_mhz
 
 
 # ---- Frames and simulation ----------------------------------------------------------------------------------
@@ -231,8 +261,10 @@ def whole(base: Configuration, results: dict[str, Result], kit: Technology, say:
         say(str(error))
         return None
     slow = found.timing["slow"]
+    with_periods = released(found, kit)
+    say(f"{found.configuration.name}: {with_periods:.0f} MHz with a release of the reset as in dtof_subsystem")
     return Whole(base.title, on_the_line(items, [results[one.name].total_mm2 for one in items], columns), found.total_mm2, slow.fmax_mhz, slow.start,
-                 slow.end)
+                 slow.end, with_periods)
 
 
 # ---- Table and page -----------------------------------------------------------------------------------------
@@ -249,8 +281,8 @@ def table(rows: Iterable[Row]) -> str:
 def _limits(rows: list[Row], wholes: list[Whole]) -> list[str]:
     """A line for each array that misses something, with what helps."""
     lines = [f"* {one.readout}, {WHOLE[0]} x {WHOLE[1]}, the whole array: {one.fmax_slow:.0f} MHz, from `{one.start}` to `{one.end}`." + (
-        " The end of the reset does not reach all columns in a clock: give each part of the array a reset synchroniser of its own "
-        "(dtof_reset_synchroniser), or use narrower arrays." if one.start == "rst_ni" else "")
+        f" The release of the reset does not reach all columns in a period. In dtof_subsystem it has more periods (dtof_array_reset), and the array "
+        f"has {one.fmax_released:.0f} MHz." if one.start == "rst_ni" else "")
         for one in wholes if one.fmax_slow < TARGET_MHZ]
     for one in rows:
         name = f"{one.readout}, {one.columns} x {one.rows}"
@@ -277,7 +309,7 @@ def report(rows: list[Row], wholes: list[Whole]) -> str:
                 f"{one.memory_mb:.0f} |")
 
     compared = [f"| {one.readout} | {one.extrapolated:.2f} | {one.measured:.2f} | {one.extrapolated / one.measured - 1:+.1%} | {one.fmax_slow:.0f} | "
-                f"`{one.start}` |" for one in wholes]
+                f"`{one.start}` | {one.fmax_released:.0f} |" for one in wholes]
     return "\n".join([
         "# Other sizes of the array",
         "",
@@ -304,7 +336,10 @@ def report(rows: list[Row], wholes: list[Whole]) -> str:
         "not with [power.md](power.md).",
         *(["* -: OpenSTA crashed in another corner than the slow one, so that the power is not known."] if any(one.power is None for one in rows) else []),
         *(["", f"A whole array of {WHOLE[0]} x {WHOLE[1]} pixels beside its extrapolation:", "",
-           "| read-out | extrapolated, mm2 | whole, mm2 | difference | fmax slow, MHz | the slowest path begins at |", "|---|---:|---:|---:|---:|---|", *compared]
+           "| read-out | extrapolated, mm2 | whole, mm2 | difference | fmax slow, MHz | the slowest path begins at | fmax slow in dtof_subsystem, MHz |",
+           "|---|---:|---:|---:|---:|---|---:|", *compared, "",
+           "In dtof_subsystem the release of the array's reset has several periods, because the array's clock is stopped "
+           "([dtof_array_reset](../docs/reference/blocks/subsystem.md#dtof_array_reset))."]
           if wholes else []),
         "",
         "## Simulation",
@@ -312,7 +347,8 @@ def report(rows: list[Row], wholes: list[Whole]) -> str:
         f"Seconds on this machine for a frame of the whole array with {SIMULATED_ACQUISITIONS} acquisitions, from strips of one, two and three times "
         f"{STRIP_COLUMNS} columns (poolPointer: an engine's "
         "columns). A straight line through the narrowest and the widest strip gives the whole array; the error is the line's at the strip between "
-        f"them. Without an error the whole array was simulated. Each time is the shortest of {RUNS}.",
+        f"them. Without an error the whole array was simulated. Each time is the shortest of {RUNS}. A pool array's engines are simulated in threads "
+        "of their own, as many as the machine has cores; so the time grows by steps with the engines, and the line has large errors.",
         "",
         "| read-out | pixels | model, s | error | RTL, s | error | memory of the widest strip, MB |",
         "|---|---:|---:|---:|---:|---:|---:|",

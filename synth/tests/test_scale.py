@@ -21,7 +21,7 @@ FITS = ("ezPointer: a frame of 3333 acquisitions takes 1112812 clocks, 3.37 ms a
         "poolPointer: a frame of 3333 acquisitions takes 13000000 clocks, 39 ms at 330 MHz; 30 frames/s leave 11000000. It would fit with 2000 "
         "acquisitions.\n")
 ROW = scale.Row("ezPointer", 640, 480, 6, 5.0, 128, 335.0, 8.0, 200.0, 3300000, 10.0, 0.02, 50.0, 0.1, 80.0, "")
-WHOLE = scale.Whole("ezPointer", 2.5, 2.0, 250.0, "rst_ni", "received[29]")
+WHOLE = scale.Whole("ezPointer", 2.5, 2.0, 250.0, "rst_ni", "received[29]", 345.0)
 
 
 class Arrays(unittest.TestCase):
@@ -71,6 +71,19 @@ class Synthesis(unittest.TestCase):
             self.assertIs(scale.synthesised(NAMED["ezpointer"], mock.Mock(), said.append), found)
         self.assertEqual(asked, [scale.batch.BOTH_CORNERS, ("slow",)])
         self.assertIn("OpenSTA: stopped; goes on with the slow corner alone", said[0])
+
+
+    def test_the_release_of_the_reset_has_the_periods_of_the_subsystem(self) -> None:
+        subsystem = (ROOT / "constraints" / "subsystem" / "dtof_subsystem.sdc").read_text(encoding="utf-8")
+        array_reset = (ROOT / "hdl" / "subsystem" / "dtof_array_reset.sv").read_text(encoding="utf-8")
+        resting = int(array_reset.split("RESTING = 4'd", 1)[1].split(";", 1)[0])
+        self.assertEqual(scale.release_periods(subsystem), (resting + 1, resting))
+        text = scale.released_constraints("create_clock", subsystem)
+        self.assertTrue(text.startswith("create_clock\n"))
+        self.assertIn(f"\nset_multicycle_path {resting + 1} -setup -from [get_ports rst_ni]\n", text)
+        self.assertIn(f"\nset_multicycle_path {resting} -hold -from [get_ports rst_ni]\n", text)
+        with self.assertRaisesRegex(FlowError, "no number of periods"):
+            scale.release_periods(subsystem.replace("set_multicycle_path 3 -hold", "set_false_path"))
 
 
 class Simulation(unittest.TestCase):
@@ -138,8 +151,8 @@ class Page(unittest.TestCase):
 
     def test_a_whole_array_stands_beside_its_extrapolation(self) -> None:
         text = scale.report([ROW], [WHOLE])
-        self.assertIn("| ezPointer | 2.50 | 2.00 | +25.0% | 250 | `rst_ni` |", text)
-        self.assertIn("250 MHz, from `rst_ni` to `received[29]`. The end of the reset does not reach", text)
+        self.assertIn("| ezPointer | 2.50 | 2.00 | +25.0% | 250 | `rst_ni` | 345 |", text)
+        self.assertIn("250 MHz, from `rst_ni` to `received[29]`. The release of the reset does not reach all columns in a period. In dtof_subsystem it has more periods (dtof_array_reset), and the array has 345 MHz.", text)
 
     def test_an_array_without_power_says_so(self) -> None:
         text = scale.report([replace(ROW, power=None)], [])
