@@ -202,7 +202,7 @@ module dtof_subsystem #(
   logic [255:0] coarse_template;
   logic start, flush, abort, continuous, second, amplitude, raw, short_words, smooth, prior, begin_frame, running, busy, done, frame;
   logic start_ignored, illegal_schedule, underrun, short_acquisition, long_acquisition, overrun, counter_full, aborted;
-  logic timeout, stalled, resetting, in_reset, array_rst_n, stream_rst_n, flushes;
+  logic timeout, stalled, starting, resetting, in_reset, array_rst_n, stream_rst_n, flushes;
   logic [23:0] watchdog;
   logic [15:0] shot_seed, shot_state;
   logic [2:0] shot_bits;
@@ -379,7 +379,7 @@ module dtof_subsystem #(
   );
 
   // The array's reset after rst_ni: the first access to a register waits for its end.
-  logic starting, starting_q;
+  logic starting_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

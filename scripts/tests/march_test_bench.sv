@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The memory self-test of hdl/technology/mbist on memories with one planted fault, and in a whole array. Ends with the verdict.
+// The memory self-test and the scan bypass of hdl/technology/mbist: the self-test on memories with one planted fault, both in a whole array.
+// Each bench ends with its verdict.
 //   +kind=<n>: the fault, see macro_faults; 0: none. +address, +bit: the faulty bit; +other_address, +other_bit: the bit that disturbs it;
 //   +value, +other_value. +depth: only memories of so many words have the fault.
 `timescale 1ns / 1ps
@@ -81,6 +82,7 @@ module dtof_macro_1rw #(
     output logic [     WIDTH-1:0] rdata_o
 );
   assign cfg_o = cfg_i;
+  always @(posedge clk_i) if (cfg_i == 2'b10 && en_i !== 1'b0) $display("a macro is accessed during scan");
   macro_faults #(
       .DEPTH(DEPTH),
       .WIDTH(WIDTH)
@@ -112,6 +114,7 @@ module dtof_macro_1r1w #(
     input  logic [     WIDTH-1:0] wdata_i
 );
   assign cfg_o = cfg_i;
+  always @(posedge clk_i) if (cfg_i == 2'b10 && (re_i || we_i) !== 1'b0) $display("a macro is accessed during scan");
   macro_faults #(
       .DEPTH(DEPTH),
       .WIDTH(WIDTH)
@@ -173,7 +176,7 @@ endmodule
 // A whole array, whose memories are tested together.
 module march_array_bench;
   parameter int READOUT = 0;
-  logic clk = 1'b0, rst_n = 1'b0;
+  logic clk = 1'b0, rst_n = 1'b0, start = 1'b0;
   always #1 clk = !clk;
   logic [1:0] cfg = 2'b00, cfg_back;
   int clocks = 0;
@@ -189,8 +192,8 @@ module march_array_bench;
       .rst_ni(rst_n),
       .sram_cfg_i(cfg),
       .sram_cfg_o(cfg_back),
-      .start_i(1'b0),
-      .acq_num_i('0),
+      .start_i(start),
+      .acq_num_i(16'd1),
       .gate_begin_i('0),
       .gate_end_i('0),
       .raw_i(1'b0),
@@ -215,12 +218,87 @@ module march_array_bench;
     repeat (3) @(posedge clk);
     #0.1 rst_n = 1'b1;
     repeat (3) @(posedge clk);
+    // Scan: a frame begins, which would clear the memories.
+    #0.1 cfg = 2'b10;
+    start = 1'b1;
+    @(posedge clk);
+    #0.1 start = 1'b0;
+    repeat (60) @(posedge clk);
     #0.1 cfg = 2'b01;
     while (!cfg_back[0] && clocks < 5000) begin
       @(posedge clk);
       #0.1 clocks = clocks + 1;
     end
     $display("%0s after %0d clocks", cfg_back[1] ? "good" : "bad", clocks);
+    $finish(0);
+  end
+endmodule
+
+// One memory under scan: the read data are the folded inputs, each input changes one bit, and the macro keeps its words.
+module scan_bypass_bench;
+  parameter int DEPTH = 12;
+  parameter int WIDTH = 5;
+  parameter int PORTS = 1;
+  localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1;
+  localparam int INPUTS = 2 + PORTS * ADDR_WIDTH + WIDTH;
+  logic clk = 1'b0;
+  always #1 clk = !clk;
+  logic [1:0] cfg = 2'b00, cfg_back;
+  logic [INPUTS-1:0] inputs = '0, driven;
+  logic [WIDTH-1:0] rdata, expected, reference, kept[0:DEPTH-1];
+  int i, j, wrong = 0;
+
+  generate
+    if (PORTS == 1) begin : g_one
+      dtof_sram_1rw #(.DEPTH(DEPTH), .WIDTH(WIDTH)) u_sram (
+          .clk_i(clk), .cfg_i(cfg), .cfg_o(cfg_back), .en_i(inputs[INPUTS-1]), .we_i(inputs[INPUTS-2]),
+          .addr_i(inputs[WIDTH+:ADDR_WIDTH]), .wdata_i(inputs[WIDTH-1:0]), .rdata_o(rdata));
+    end else begin : g_two
+      dtof_sram_1r1w #(.DEPTH(DEPTH), .WIDTH(WIDTH)) u_sram (
+          .clk_i(clk), .cfg_i(cfg), .cfg_o(cfg_back), .re_i(inputs[INPUTS-1]), .we_i(inputs[INPUTS-2]),
+          .raddr_i(inputs[WIDTH+ADDR_WIDTH+:ADDR_WIDTH]), .waddr_i(inputs[WIDTH+:ADDR_WIDTH]), .wdata_i(inputs[WIDTH-1:0]), .rdata_o(rdata));
+    end
+  endgenerate
+
+  task clocked(input logic [INPUTS-1:0] value);
+    inputs = value;
+    @(posedge clk);
+    #0.1;
+  endtask
+
+  // An access of the macro: a write of `data` to a word, or a read.
+  function automatic logic [INPUTS-1:0] access(input logic write, input int place, input logic [WIDTH-1:0] data);
+    access = '0;
+    access[INPUTS-1] = (PORTS == 1) || !write;
+    access[INPUTS-2] = write;
+    access[WIDTH+:ADDR_WIDTH] = place;
+    if (PORTS == 2) access[WIDTH+(PORTS-1)*ADDR_WIDTH+:ADDR_WIDTH] = place;
+    access[WIDTH-1:0] = data;
+  endfunction
+
+  initial begin
+    for (i = 0; i < DEPTH; i = i + 1) begin
+      kept[i] = $random;
+      clocked(access(1'b1, i, kept[i]));
+    end
+    cfg = 2'b10;
+    for (i = 0; i < 200; i = i + 1) begin
+      driven = {$random, $random};
+      clocked(driven);
+      expected = '0;
+      for (j = 0; j < INPUTS; j = j + 1) expected[j%WIDTH] = expected[j%WIDTH] ^ driven[j];
+      if (rdata !== expected) wrong = wrong + 1;
+      reference = rdata;
+      j = i % INPUTS;
+      clocked(driven ^ (1 << j));
+      if ((rdata ^ reference) !== (1 << (j % WIDTH))) wrong = wrong + 1;
+    end
+    cfg = 2'b00;
+    for (i = 0; i < DEPTH; i = i + 1) begin
+      clocked(access(1'b0, i, '0));
+      if (rdata !== kept[i]) wrong = wrong + 1;
+    end
+    $display("%0s, %0d wrong", wrong == 0 ? "good" : "bad", wrong);
     $finish(0);
   end
 endmodule

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The memory self-test of hdl/technology/mbist in Icarus Verilog: it finds every drawn fault, lets good memories pass, and reaches all
-memories of an array over the side band. Changed tests must miss some of the faults."""
+"""hdl/technology/mbist in Icarus Verilog. The memory self-test finds every drawn fault, lets good memories pass, and reaches all memories of
+an array over the side band; changed tests must miss some of the faults. The scan bypass shows each input of a macro, and keeps its words."""
 
 import random
 import shutil
@@ -100,6 +100,32 @@ class MarchTest(unittest.TestCase):
             for depth in depths:
                 fault = {"kind": STUCK, "address": depth - 1, "bit": 0, "value": 1, "depth": depth}
                 self.assertTrue(self.verdict(fault).startswith("bad"), f"READOUT {readout}, memories of {depth} words")
+
+    def test_the_scan_bypass_shows_every_input_and_keeps_the_words(self) -> None:
+        for ports in (1, 2):
+            for depth, width in ((12, 5), (2, 1), (16, 33)):
+                with self.subTest(ports=ports, depth=depth, width=width):
+                    self.build("scan_bypass_bench", DEPTH=depth, WIDTH=width, PORTS=ports)
+                    self.assertEqual(self.verdict(), "good, 0 wrong")
+
+    def test_a_changed_scan_bypass_is_found(self) -> None:
+        for name, ports, old, new in (
+                ("dtof_scan_bypass.sv", 1, "(INPUTS + WIDTH - 1) / WIDTH", "INPUTS / WIDTH"),
+                ("dtof_scan_bypass.sv", 2, "folded = folded ^ filled", "folded = folded | filled"),
+                ("dtof_scan_bypass.sv", 1, "scan_i ? folded_q : macro_rdata_i", "macro_rdata_i"),
+                ("dtof_sram_1rw.sv", 1, "{en_i, we_i, addr_i, wdata_i}", "{en_i, en_i, addr_i, wdata_i}"),
+                ("dtof_sram_1rw.sv", 1, "en_i && !scan", "en_i"),
+                ("dtof_sram_1r1w.sv", 2, "we_i && !scan", "we_i"),
+                ("dtof_sram_1r1w.sv", 2, "{re_i, we_i, raddr_i, waddr_i, wdata_i}", "{re_i, we_i, waddr_i, waddr_i, wdata_i}")):  # fmt: skip
+            with self.subTest(name=name, new=new):
+                path = self.mbist / name
+                text = path.read_text(encoding="utf-8")
+                self.assertEqual(text.count(old), 1)
+                path.write_text(text.replace(old, new), encoding="utf-8")
+                self.build("scan_bypass_bench", DEPTH=DEPTH, WIDTH=WIDTH, PORTS=ports)
+                verdict = self.verdict()
+                path.write_text(text, encoding="utf-8")
+                self.assertNotEqual(verdict, "good, 0 wrong")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// An SRAM with a read and a write port and a memory self-test (MBIST): dtof_march_test in front of the macro dtof_macro_1r1w, whose ports are
-// those of dtof_sram_1r1w in hdl/technology/behavioural.
+// An SRAM with a read and a write port, a memory self-test (MBIST) and a scan bypass: dtof_march_test and dtof_scan_bypass around the macro
+// dtof_macro_1r1w, whose ports are those of dtof_sram_1r1w in hdl/technology/behavioural.
 //
-// Side band and test as in dtof_sram_1rw of this folder. The test uses one port in each clock, so it does not find a fault that needs a read
+// Side band, test and scan as in dtof_sram_1rw of this folder. The test uses one port in each clock, so it does not find a fault that needs a read
 // and a write in one clock.
-// Latency: one clock, as without a test. Cost: dtof_march_test, and a multiplexer at each input of the macro.
+// Latency: one clock, as without a test. Cost: dtof_march_test, dtof_scan_bypass, and a multiplexer at each input of the macro.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -29,12 +29,13 @@ module dtof_sram_1r1w #(
 
   `DTOF_REQUIRE(g_illegal_cfg, CFG_WIDTH >= 2, "dtof_sram_1r1w with a self-test: DTOF_SRAM_CFG_WIDTH must be at least 2")
 
-  logic test, test_en, test_we, done, good;
+  logic test, scan, test_en, test_we, done, good;
   logic [ADDR_WIDTH-1:0] test_addr;
-  logic [WIDTH-1:0] test_wdata;
+  logic [WIDTH-1:0] test_wdata, macro_rdata;
   logic [CFG_WIDTH-1:0] macro_cfg;
 
   assign test = cfg_i[0];
+  assign scan = cfg_i[1] && !test;
 
   dtof_march_test #(
       .DEPTH(DEPTH),
@@ -46,7 +47,7 @@ module dtof_sram_1r1w #(
       .we_o   (test_we),
       .addr_o (test_addr),
       .wdata_o(test_wdata),
-      .rdata_i(rdata_o),
+      .rdata_i(macro_rdata),
       .done_o (done),
       .good_o (good)
   );
@@ -59,12 +60,23 @@ module dtof_sram_1r1w #(
       .clk_i  (clk_i),
       .cfg_i  (cfg_i),
       .cfg_o  (macro_cfg),
-      .re_i   (test ? test_en && !test_we : re_i),
+      .re_i   (test ? test_en && !test_we : re_i && !scan),
       .raddr_i(test ? test_addr : raddr_i),
-      .rdata_o(rdata_o),
-      .we_i   (test ? test_en && test_we : we_i),
+      .rdata_o(macro_rdata),
+      .we_i   (test ? test_en && test_we : we_i && !scan),
       .waddr_i(test ? test_addr : waddr_i),
       .wdata_i(test ? test_wdata : wdata_i)
+  );
+
+  dtof_scan_bypass #(
+      .INPUTS(2 + 2 * ADDR_WIDTH + WIDTH),
+      .WIDTH (WIDTH)
+  ) u_scan_bypass (
+      .clk_i        (clk_i),
+      .scan_i       (scan),
+      .inputs_i     ({re_i, we_i, raddr_i, waddr_i, wdata_i}),
+      .macro_rdata_i(macro_rdata),
+      .rdata_o      (rdata_o)
   );
 
   assign cfg_o[1:0] = {good, done};
