@@ -70,6 +70,7 @@ class Row:
     rtl_error: float
     memory_mb: float  # of the widest strip
     limit: str
+    start: str  # of the slowest path of the widest array that was synthesised
 
 
 def stages(columns: int) -> int:
@@ -248,7 +249,8 @@ def row(base: Configuration, columns: int, rows: int, results: dict[str, Result]
     powers = [one.power.total for one in made if one.power]
     return Row(base.title, columns, rows, item["BROADCAST_STAGES"], on_the_line(items, [one.total_mm2 for one in made], columns),
                items[-1]["SRAM_NUM"], made[-1].timing["slow"].fmax_mhz, columns * floorplan.PITCH_UM / 2000,
-               on_the_line(items, powers, columns) if len(powers) == len(items) else None, clocks, *found["model"], *found["rtl"], memory, limit)
+               on_the_line(items, powers, columns) if len(powers) == len(items) else None, clocks, *found["model"], *found["rtl"], memory, limit,
+               made[-1].timing["slow"].start)
 
 
 def whole(base: Configuration, results: dict[str, Result], kit: Technology, say: Callable[[str], None]) -> Whole | None:
@@ -287,7 +289,10 @@ def _limits(rows: list[Row], wholes: list[Whole]) -> list[str]:
     for one in rows:
         name = f"{one.readout}, {one.columns} x {one.rows}"
         if one.fmax_slow < TARGET_MHZ:
-            lines.append(f"* {name}: {one.fmax_slow:.0f} MHz even with {one.part_columns} columns.")
+            frames = 1e6 * one.fmax_slow / one.frame_clocks
+            lines.append(f"* {name}: {one.fmax_slow:.0f} MHz even with {one.part_columns} columns, from `{one.start}`. "
+                         + (f"At this clock it still has {frames:.0f} frames/s." if frames >= FRAME_RATE else
+                            f"At this clock it has only {frames:.0f} frames/s: use fewer rows for each SRAM, or fewer acquisitions."))
         if 1000 * one.half_width / one.stages > STAGE_UM:
             lines.append(f"* {name}: {one.stages} registers, the most that BROADCAST_STAGES allows, leave {one.half_width / one.stages:.1f} mm of wire "
                          "between two of them: use several narrower arrays.")

@@ -20,7 +20,7 @@ SENSOR = 'name = "thesis"\n\n[array]\ncolumns = 200\nrows = 160\n'
 FITS = ("ezPointer: a frame of 3333 acquisitions takes 1112812 clocks, 3.37 ms at 330 MHz; 30 frames/s leave 11000000, so that the frame fits.\n"
         "poolPointer: a frame of 3333 acquisitions takes 13000000 clocks, 39 ms at 330 MHz; 30 frames/s leave 11000000. It would fit with 2000 "
         "acquisitions.\n")
-ROW = scale.Row("ezPointer", 640, 480, 6, 5.0, 128, 335.0, 8.0, 200.0, 3300000, 10.0, 0.02, 50.0, 0.1, 80.0, "")
+ROW = scale.Row("ezPointer", 640, 480, 6, 5.0, 128, 335.0, 8.0, 200.0, 3300000, 10.0, 0.02, 50.0, 0.1, 80.0, "", "column word SRAM")
 WHOLE = scale.Whole("ezPointer", 2.5, 2.0, 250.0, "rst_ni", "received[29]", 345.0)
 
 
@@ -165,12 +165,14 @@ class Page(unittest.TestCase):
         logic = replace(ROW, fmax_slow=320.0)
         wires = replace(ROW, columns=2048, stages=8, half_width=25.6)
         frame = replace(ROW, limit="30 frames/s leave 11000000. It would fit with 2000 acquisitions.")
-        lines = scale._limits([ROW, logic, wires, frame], [replace(WHOLE, start="received[1]"), replace(WHOLE, fmax_slow=331.0)])
-        self.assertEqual(len(lines), 4)
+        slow = replace(logic, frame_clocks=16000000)
+        lines = scale._limits([ROW, logic, slow, wires, frame], [replace(WHOLE, start="received[1]"), replace(WHOLE, fmax_slow=331.0)])
+        self.assertEqual(len(lines), 5)
         self.assertNotIn("reset", lines[0])
-        self.assertIn("320 MHz even with 128 columns", lines[1])
-        self.assertIn("several narrower arrays", lines[2])
-        self.assertIn("2000 acquisitions", lines[3])
+        self.assertIn("320 MHz even with 128 columns, from `column word SRAM`. At this clock it still has 97 frames/s.", lines[1])
+        self.assertIn("At this clock it has only 20 frames/s: use fewer rows", lines[2])
+        self.assertIn("several narrower arrays", lines[3])
+        self.assertIn("2000 acquisitions", lines[4])
 
     def test_the_table_has_every_field(self) -> None:
         (header, values) = csv.reader(io.StringIO(scale.table([ROW])))
