@@ -29,6 +29,7 @@ from .batch import Job
 from .configuration import Configuration
 from .errors import FlowError
 from .run import TARGET_MHZ, Result, Technology, retimed
+from .timing import Timing
 
 from figures.small import is_small, written_root
 
@@ -89,6 +90,8 @@ class Whole:
     start: str  # of the slowest path
     end: str
     fmax_released: float  # if the release of the reset has as many periods as in dtof_subsystem
+    start_released: str  # of the slowest path then
+    end_released: str
 
 
 def array(base: Configuration, columns: int, rows: int, of_columns: int = 0) -> Configuration:
@@ -146,15 +149,15 @@ def released_constraints(array_constraints: str, subsystem_constraints: str) -> 
             f"set_multicycle_path {hold} -hold -from [get_ports rst_ni]\n")
 
 
-def released(result: Result, kit: Technology) -> float:
-    """The clock in MHz, slow corner, of an array that `synthesised` left, if its reset is released as in dtof_subsystem."""
+def released(result: Result, kit: Technology) -> Timing:
+    """Timing in the slow corner of an array that `synthesised` left, if its reset is released as in dtof_subsystem."""
     folder = BUILD / "runs" / result.configuration.name
     file = folder / "released.sdc"
     texts = ((ROOT / "constraints" / name).read_text(encoding="utf-8") for name in ("dtof.sdc", "subsystem/dtof_subsystem.sdc"))
     file.write_text(released_constraints(*texts), encoding="utf-8")
     report = retimed(result, kit, folder, kit.slow.path, kit.kit / "sram40_slow.lib", "sta_released.log", ("nominal", "closing"),
                      "reset released as in dtof_subsystem", settings={"constraints": file})
-    return report.timing().fmax_mhz
+    return report.timing()
 
 
 # ---- Frames and simulation ----------------------------------------------------------------------------------
@@ -264,9 +267,9 @@ def whole(base: Configuration, results: dict[str, Result], kit: Technology, say:
         return None
     slow = found.timing["slow"]
     with_periods = released(found, kit)
-    say(f"{found.configuration.name}: {with_periods:.0f} MHz with a release of the reset as in dtof_subsystem")
+    say(f"{found.configuration.name}: {with_periods.fmax_mhz:.0f} MHz with a release of the reset as in dtof_subsystem")
     return Whole(base.title, on_the_line(items, [results[one.name].total_mm2 for one in items], columns), found.total_mm2, slow.fmax_mhz, slow.start,
-                 slow.end, with_periods)
+                 slow.end, with_periods.fmax_mhz, with_periods.start, with_periods.end)
 
 
 # ---- Table and page -----------------------------------------------------------------------------------------
@@ -284,7 +287,7 @@ def _limits(rows: list[Row], wholes: list[Whole]) -> list[str]:
     """A line for each array that misses something, with what helps."""
     lines = [f"* {one.readout}, {WHOLE[0]} x {WHOLE[1]}, the whole array: {one.fmax_slow:.0f} MHz, from `{one.start}` to `{one.end}`." + (
         f" The release of the reset does not reach all columns in a period. In dtof_subsystem it has more periods (dtof_array_reset), and the array "
-        f"has {one.fmax_released:.0f} MHz." if one.start == "rst_ni" else "")
+        f"has {one.fmax_released:.0f} MHz, from `{one.start_released}` to `{one.end_released}`." if one.start == "rst_ni" else "")
         for one in wholes if one.fmax_slow < TARGET_MHZ]
     for one in rows:
         name = f"{one.readout}, {one.columns} x {one.rows}"
@@ -344,7 +347,9 @@ def report(rows: list[Row], wholes: list[Whole]) -> str:
            "| read-out | extrapolated, mm2 | whole, mm2 | difference | fmax slow, MHz | the slowest path begins at | fmax slow in dtof_subsystem, MHz |",
            "|---|---:|---:|---:|---:|---|---:|", *compared, "",
            "In dtof_subsystem the release of the array's reset has several periods, because the array's clock is stopped "
-           "([dtof_array_reset](../docs/reference/blocks/subsystem.md#dtof_array_reset))."]
+           "([dtof_array_reset](../docs/reference/blocks/subsystem.md#dtof_array_reset)). Then the commands from the shared logic to the columns and the "
+           "results of the engines cross half of the array in one period: the flow puts all registers of the broadcast but the last one beside the shared "
+           "logic. A layout that spreads them over the way needs no such long wire; an engine's results have no register on their way."]
           if wholes else []),
         "",
         "## Simulation",

@@ -97,6 +97,7 @@ module dtof_subsystem_bench #(
     @(posedge clk);
     #0.1 penable = 1'b1;
     @(negedge clk);
+    while (pready === 1'b0) @(negedge clk);
     if (pready !== 1'b1 || pslverr !== 1'b0) finish_with_failure("a register refuses");
     @(posedge clk);
     #0.1 psel = 1'b0;

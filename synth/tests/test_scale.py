@@ -21,7 +21,7 @@ FITS = ("ezPointer: a frame of 3333 acquisitions takes 1112812 clocks, 3.37 ms a
         "poolPointer: a frame of 3333 acquisitions takes 13000000 clocks, 39 ms at 330 MHz; 30 frames/s leave 11000000. It would fit with 2000 "
         "acquisitions.\n")
 ROW = scale.Row("ezPointer", 640, 480, 6, 5.0, 128, 335.0, 8.0, 200.0, 3300000, 10.0, 0.02, 50.0, 0.1, 80.0, "", "column word SRAM")
-WHOLE = scale.Whole("ezPointer", 2.5, 2.0, 250.0, "rst_ni", "received[29]", 345.0)
+WHOLE = scale.Whole("ezPointer", 2.5, 2.0, 250.0, "rst_ni", "received[29]", 345.0, "stages_q[86]", "received[0]")
 
 
 class Arrays(unittest.TestCase):
@@ -152,7 +152,7 @@ class Page(unittest.TestCase):
     def test_a_whole_array_stands_beside_its_extrapolation(self) -> None:
         text = scale.report([ROW], [WHOLE])
         self.assertIn("| ezPointer | 2.50 | 2.00 | +25.0% | 250 | `rst_ni` | 345 |", text)
-        self.assertIn("250 MHz, from `rst_ni` to `received[29]`. The release of the reset does not reach all columns in a period. In dtof_subsystem it has more periods (dtof_array_reset), and the array has 345 MHz.", text)
+        self.assertIn("250 MHz, from `rst_ni` to `received[29]`. The release of the reset does not reach all columns in a period. In dtof_subsystem it has more periods (dtof_array_reset), and the array has 345 MHz, from `stages_q[86]` to `received[0]`.", text)
 
     def test_an_array_without_power_says_so(self) -> None:
         text = scale.report([replace(ROW, power=None)], [])
