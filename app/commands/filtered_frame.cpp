@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <iterator>
 #include <vector>
 
 #include "dtof/core/error.hpp"
@@ -27,13 +25,7 @@ FrameMaps filtered_maps(const MeasuredFrame& frame, const TabledReadout& readout
   const std::vector<float>& truth = pipeline.truth().metres;
   FrameMaps maps = frame.maps;
   std::vector<double> metres(maps.depth.begin(), maps.depth.end());
-  std::vector<std::uint16_t> confidences;
-  const bool has_confidence =
-      !is_pointer_readout(readout.parameters.readout) || readout.parameters.confidence_width > 0;
-  if (has_confidence) {
-    std::ranges::transform(frame.run.results, std::back_inserter(confidences), &PixelResult::confidence);
-  }
-  filter_depth(metres, confidences, static_cast<int>(pipeline.region().columns.size()),
+  filter_depth(metres, static_cast<int>(pipeline.region().columns.size()),
                pulse_distance_m(sensor.pulse_fwhm_s));
   const std::vector<double> positions = pipeline.positions(frame.run.results, readout.parameters);
   const DepthScale scale(sensor.integration_time_s, readout.parameters.np, sensor.pulse_fwhm_s);

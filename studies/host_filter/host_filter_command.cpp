@@ -23,7 +23,7 @@ namespace dtof {
 namespace {
 
 struct HostFilterOptions {
-  SceneChoice scenes{.scenes = {"room", "planes", "clutter", "poles", "isolated"}};
+  SceneChoice scenes;
   std::vector<std::string> readouts = {"poolpointer",     "poolpointer-lean", "hispointer",
                                        "coarsehistogram", "histogram",        "ezpointer"};
   std::string sensor = "thesis";
@@ -82,6 +82,7 @@ void run_host_filter(HostFilterOptions options) {
 void add_host_filter_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<HostFilterOptions>();
   options->command_line = command_line;
+  options->scenes.scenes = {"room", "planes", "clutter", "poles", "isolated"};  // those of pool but the flats
   CLI::App* command =
       app.add_subcommand("host-filter", "Errors of each read-out's maps before and after the host filter");
   add_sensor_option(*command, options->sensor);

@@ -12,13 +12,13 @@
 namespace dtof {
 namespace {
 
-std::string per_cent(const Estimate& share) {
+std::string share_text(const Estimate& share) {
   return fmt::format("{:.2f} +-{:.2f}", 100.0 * share.value,
                      50.0 * (share.interval.high - share.interval.low));
 }
 
 /// Above 3 % of each scene, before / after.
-Table scene_table(const FilterLight& light) {
+Table filter_scene_table(const FilterLight& light) {
   std::vector<std::string> header = {"scene"};
   header.insert(header.end(), light.estimators().begin(), light.estimators().end());
   Table table(std::move(header));
@@ -34,19 +34,19 @@ Table scene_table(const FilterLight& light) {
   return table;
 }
 
-Table goal_table(const std::vector<FilterLight>& whole) {
+Table filter_goal_table(const std::vector<FilterLight>& whole) {
   Table table({"goal", "without", "with the filter", "limit", "met"});
   for (const FilterLight& light : whole) {
     const std::vector<std::size_t> all = light.all_scenes();
     const Estimate after = light.estimate(all, 0, true, 0);
     table.add({fmt::format("{}: {:g} klux, above 3 %", light.estimators().front(), light.klux()),
-               per_cent(light.estimate(all, 0, false, 0)), per_cent(after),
+               share_text(light.estimate(all, 0, false, 0)), share_text(after),
                fmt::format("{:.2f}", 100.0 * kFilterGoal), goal_verdict(after, kFilterGoal)});
   }
   return table;
 }
 
-void add_rows(Table& csv, const char* part, const FilterLight& light) {
+void add_filter_rows(Table& csv, const char* part, const FilterLight& light) {
   for (std::size_t s = 0; s < light.scenes().size(); ++s) {
     const std::size_t one[] = {s};
     for (std::size_t e = 0; e < light.estimators().size(); ++e) {
@@ -94,7 +94,7 @@ Table host_filter_table(const FilterLight& light) {
     std::vector<std::string> row = {light.estimators()[e]};
     for (std::size_t f = 0; f < kFilterFigures.size(); ++f) {
       for (const bool filtered : {false, true}) {
-        row.push_back(light.pixels(all, f) == 0 ? "-" : per_cent(light.estimate(all, e, filtered, f)));
+        row.push_back(light.pixels(all, f) == 0 ? "-" : share_text(light.estimate(all, e, filtered, f)));
       }
     }
     table.add(std::move(row));
@@ -123,13 +123,13 @@ std::string host_filter_report(const HostFilterReport& report) {
     text += fmt::format(
         "\n## Goal\n\nWhole maps of all scenes together. The goal is met if the whole interval is below the "
         "limit, and open if the limit is inside the interval.\n\n{}",
-        goal_table(report.whole).markdown());
+        filter_goal_table(report.whole).markdown());
   }
   for (const FilterLight& light : report.lights) {
     text += fmt::format(
         "\n## {:g} klux\n\n### All scenes together\n\n{}\n### Each scene: above 3 %, before / "
         "after\n\n{}",
-        light.klux(), host_filter_table(light).markdown(), scene_table(light).markdown());
+        light.klux(), host_filter_table(light).markdown(), filter_scene_table(light).markdown());
   }
   return text;
 }
@@ -143,10 +143,10 @@ Table host_filter_csv(const HostFilterReport& report) {
   }
   Table csv(std::move(header), 4);
   for (const FilterLight& light : report.lights) {
-    add_rows(csv, "middle", light);
+    add_filter_rows(csv, "middle", light);
   }
   for (const FilterLight& light : report.whole) {
-    add_rows(csv, "whole", light);
+    add_filter_rows(csv, "whole", light);
   }
   return csv;
 }

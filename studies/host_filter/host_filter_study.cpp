@@ -16,18 +16,20 @@
 namespace dtof {
 namespace {
 
-constexpr double kThree = 0.03;
-constexpr double kTen = 0.10;
+constexpr double kThreePercent = 0.03;
+constexpr double kTenPercent = 0.10;
 /// The study's figures have no line for this reference of SceneStudy.
-constexpr const char* kLeftOut = "hisPointer pairs";
+constexpr const char* kNotShown = "hisPointer pairs";
 
-bool is_near(double measured, double distance) { return std::abs(measured - distance) <= kThree * distance; }
+bool is_within_3(double measured, double distance) {
+  return std::abs(measured - distance) <= kThreePercent * distance;
+}
 
 /// Whether a distance is that of the pixel or of one of its eight neighbours.
 bool is_on_a_surface(const SceneTruth& truth, int column, int row, double measured) {
   for (int y = std::max(row - 1, 0); y <= std::min(row + 1, truth.rows - 1); ++y) {
     for (int x = std::max(column - 1, 0); x <= std::min(column + 1, truth.columns - 1); ++x) {
-      if (is_near(measured, truth.distance_m[static_cast<std::size_t>(y * truth.columns + x)])) {
+      if (is_within_3(measured, truth.distance_m[static_cast<std::size_t>(y * truth.columns + x)])) {
         return true;
       }
     }
@@ -35,7 +37,7 @@ bool is_on_a_surface(const SceneTruth& truth, int column, int row, double measur
   return false;
 }
 
-void count(PixelCount& counter, bool hit) {
+void count_pixel_if(PixelCount& counter, bool hit) {
   ++counter.pixels;
   counter.hits += hit ? 1 : 0;
 }
@@ -52,15 +54,15 @@ FilterCounts count_pixels(const SceneTruth& truth, std::span<const double> measu
       if (distance <= 0.0) {
         continue;
       }
-      const bool beyond_10 = std::abs(measured_m[i] - distance) > kTen * distance;
-      count(above_3, !is_near(measured_m[i], distance));
-      count(above_10, beyond_10);
+      const bool beyond_10 = std::abs(measured_m[i] - distance) > kTenPercent * distance;
+      count_pixel_if(above_3, !is_within_3(measured_m[i], distance));
+      count_pixel_if(above_10, beyond_10);
       if (truth.edge[i]) {
-        count(edges, !is_near(measured_m[i], distance));
-        count(flying, !is_on_a_surface(truth, column, row, measured_m[i]));
+        count_pixel_if(edges, !is_within_3(measured_m[i], distance));
+        count_pixel_if(flying, !is_on_a_surface(truth, column, row, measured_m[i]));
       }
       if (truth.single[i]) {
-        count(singles, beyond_10);
+        count_pixel_if(singles, beyond_10);
       }
     }
   }
@@ -85,7 +87,7 @@ StudyScene middle_columns(const StudyScene& scene, int columns) {
 
 std::vector<double> filtered_distances(const SceneMeasurement& measurement, int columns, double pulse_m) {
   std::vector<double> metres = measurement.distance_m;
-  filter_depth(metres, filter_confidences(measurement.confidence), columns, pulse_m);
+  filter_depth(metres, columns, pulse_m);
   return metres;
 }
 
@@ -154,7 +156,7 @@ FilterLight measure_host_filter(const HostFilterSettings& settings, double klux)
                            settings.references);
     progress.advance();
     std::vector<std::string> titles = study.estimators();
-    std::erase(titles, kLeftOut);
+    std::erase(titles, kNotShown);
     if (!light) {
       std::vector<std::string> names;
       std::ranges::transform(scenes, std::back_inserter(names), &StudyScene::name);
@@ -166,7 +168,7 @@ FilterLight measure_host_filter(const HostFilterSettings& settings, double klux)
       const std::vector<SceneMeasurement> measured = study.measure(part);
       std::size_t place = 0;
       for (std::size_t e = 0; e < measured.size(); ++e) {
-        if (study.estimators()[e] == kLeftOut) {
+        if (study.estimators()[e] == kNotShown) {
           continue;
         }
         light->add(s, place, false, count_pixels(truth, measured[e].distance_m));

@@ -16,10 +16,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr std::size_t kAllScenes[] = {0};
+constexpr std::size_t kOnlyScene[] = {0};
 
 /// Two columns: distances of 1 m and 2 m, and a pixel without a target.
-SceneTruth step() {
+SceneTruth step_truth() {
   return {.columns = 2,
           .rows = 3,
           .distance_m = {1.0, 2.0, 1.0, 2.0, 0.0, 2.0},
@@ -31,7 +31,7 @@ TEST(HostFilterStudy, CountsEqualHandCalculations) {
   // Within 3 %; 5 % off; between both surfaces, flying; on the other surface; not judged; 11 % off.
   const std::vector<double> measured = {1.03, 2.1, 1.5, 1.0, 9.0, 2.22};
   EXPECT_THAT(
-      count_pixels(step(), measured),
+      count_pixels(step_truth(), measured),
       ElementsAre(PixelCount{4, 5}, PixelCount{3, 5}, PixelCount{3, 4}, PixelCount{1, 1}, PixelCount{2, 4}));
 }
 
@@ -65,7 +65,7 @@ TEST(HostFilterStudy, SharesAreOfAllScenesAndSeedsTogether) {
   const std::vector<std::size_t> both = light.all_scenes();
   EXPECT_THAT(both, ElementsAre(0, 1));
   EXPECT_DOUBLE_EQ(light.estimate(both, 1, false, 0).value, 0.0275);  // 10 and 12 of 400
-  EXPECT_DOUBLE_EQ(light.estimate(kAllScenes, 1, true, 0).value, 0.01);
+  EXPECT_DOUBLE_EQ(light.estimate(kOnlyScene, 1, true, 0).value, 0.01);
   EXPECT_EQ(light.pixels(both, 0), 800U);
   EXPECT_EQ(light.pixels(both, 3), 0U);
 }
@@ -89,9 +89,9 @@ TEST(HostFilterStudy, AWallHasFewerErrorsAfterTheFilter) {
   settings.seeds = 2;
   settings.threads = 1;
   const FilterLight light = measure_host_filter(settings, 14.0);
-  EXPECT_EQ(light.pixels(kAllScenes, 0), 2U * 8 * 16);
-  EXPECT_LT(light.estimate(kAllScenes, 0, true, 0).value,
-            0.5 * light.estimate(kAllScenes, 0, false, 0).value);
+  EXPECT_EQ(light.pixels(kOnlyScene, 0), 2U * 8 * 16);
+  EXPECT_LT(light.estimate(kOnlyScene, 0, true, 0).value,
+            0.5 * light.estimate(kOnlyScene, 0, false, 0).value);
   const HostFilterReport report{
       .settings = settings, .lights = {light}, .whole = {light}, .command_line = "command"};
   const std::string page = host_filter_report(report);

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <numeric>
+#include <vector>
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/physical_constants.hpp"
@@ -17,28 +18,20 @@ namespace dtof {
 namespace {
 
 constexpr double kUnitM = 1e-4;  // of the driver's depths
-constexpr double kScaledMean = 1024.0;
-constexpr double kMostConfidence = std::numeric_limits<std::uint16_t>::max();
 
 std::uint32_t to_units(double metres) {
   const double units = std::round(std::max(metres, 0.0) / kUnitM);
   return units <= double{DTOF_FILTER_MOST_DEPTH} ? static_cast<std::uint32_t>(units) : DTOF_FILTER_INVALID;
 }
 
-bool is_whole(double confidence) {
-  return confidence >= 0.0 && confidence <= kMostConfidence && std::floor(confidence) == confidence;
-}
-
 }  // namespace
 
-void filter_depth(std::span<double> metres, std::span<const std::uint16_t> confidences, int columns,
-                  double pulse_m) {
+void filter_depth(std::span<double> metres, int columns, double pulse_m) {
   constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
   const auto width = static_cast<std::size_t>(std::max(columns, 0));
   if (width == 0 || width > kMost || metres.empty() || metres.size() % width != 0 ||
-      metres.size() / width > kMost || (!confidences.empty() && confidences.size() != metres.size())) {
-    throw InputError(fmt::format("host filter: {} pixels and {} confidences are no map of {} columns",
-                                 metres.size(), confidences.size(), columns));
+      metres.size() / width > kMost) {
+    throw InputError(fmt::format("host filter: {} pixels are no map of {} columns", metres.size(), columns));
   }
   const std::uint32_t pulse = std::isnan(pulse_m) ? 0 : to_units(pulse_m);
   if (pulse == 0 || pulse == DTOF_FILTER_INVALID) {
@@ -51,27 +44,10 @@ void filter_depth(std::span<double> metres, std::span<const std::uint16_t> confi
   std::vector<std::uint32_t> lines(DTOF_FILTER_LINES * width);
   const dtof_filter_settings settings = dtof_filter_defaults(pulse);
   dtof_filter(&settings, static_cast<std::uint16_t>(width), static_cast<std::uint16_t>(metres.size() / width),
-              depths.data(), confidences.empty() ? nullptr : confidences.data(), lines.data());
+              depths.data(), lines.data());
   std::ranges::transform(depths, metres.begin(), [](std::uint32_t depth) {
     return depth == DTOF_FILTER_INVALID ? std::numeric_limits<double>::quiet_NaN() : depth * kUnitM;
   });
-}
-
-std::vector<std::uint16_t> filter_confidences(std::span<const double> confidences) {
-  double scale = 1.0;
-  if (!std::ranges::all_of(confidences, is_whole)) {
-    double sum = 0.0;
-    for (const double confidence : confidences) {
-      sum += std::max(confidence, 0.0);
-    }
-    scale = sum > 0.0 ? kScaledMean * static_cast<double>(confidences.size()) / sum : 0.0;
-  }
-  std::vector<std::uint16_t> scaled;
-  for (const double confidence : confidences) {
-    scaled.push_back(
-        static_cast<std::uint16_t>(std::clamp(std::round(scale * confidence), 0.0, kMostConfidence)));
-  }
-  return scaled;
 }
 
 double pulse_distance_m(double fwhm_s) { return 0.5 * kSpeedOfLight * fwhm_s; }
