@@ -2,7 +2,7 @@
 .PHONY: claims design-judgement detection dynamic-range hostile-scenes host-filter frames leaderboard pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SMALL_SCENES := $(if $(SMALL),--klux 14 --columns 8)
 SMALL_POOL := $(if $(SMALL),--klux 14 --scene planes --seeds 2)
-SMALL_HOST_FILTER := $(if $(SMALL),--klux 14 --scene planes --columns 8 --seeds 2 --no-goal)
+HOST_FILTER := $(if $(SMALL),--klux 14 --scene planes --columns 8 --seeds 2 --no-goal,--columns 20)
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -105,11 +105,11 @@ host-filter: study-program
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
 	  scripts/reports.py begin host_filter; \
-	  $(DTOF_STUDY) host-filter --held-out $(SCENE_MAPS) $(SMALL_HOST_FILTER) --seed $(SEED) --out $(OUT)/host_filter; \
+	  $(DTOF_STUDY) host-filter --held-out $(SCENE_MAPS) $(HOST_FILTER) --seed $(SEED) --out $(OUT)/host_filter; \
 	  scripts/publish.py host_filter; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/host_filter_synthetic"; \
-	  $(DTOF_STUDY) host-filter --held-out $(SMALL_HOST_FILTER) --seed $(SEED) --out $(OUT)/host_filter_synthetic; \
+	  $(DTOF_STUDY) host-filter --held-out $(HOST_FILTER) --seed $(SEED) --out $(OUT)/host_filter_synthetic; \
 	fi
 
 detection: study-program
