@@ -12,9 +12,9 @@
 
 namespace dtof {
 
-void check_filtered_region(const Region& region) {
+void check_filtered_region(const Region& region, bool filter) {
   const auto apart = std::ranges::adjacent_find(region.columns, [](int a, int b) { return b != a + 1; });
-  if (apart != region.columns.end()) {
+  if (filter && apart != region.columns.end()) {
     throw InputError("--host-filter uses each pixel's neighbours: --columns must be one range");
   }
 }

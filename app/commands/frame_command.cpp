@@ -283,19 +283,41 @@ std::string times_text(TableRule rule, double table_seconds, double read_seconds
              : fmt::format("Look-up table in {:.1f} s, read out in {:.1f} s", table_seconds, read_seconds);
 }
 
-void run_frame_command(const FrameOptions& options, JsonResult& result) {
-  check_run_options(options.run);
-  std::vector<ReadoutParameters> readouts =
-      options.readout.parameters(options.run.readouts(), settled_sensor(options));
-  if (!options.run.trace.empty() && readouts.size() != 1) {
-    throw InputError("--trace needs exactly one read-out");
+/// A frame of each read-out, after the host filter if it is asked for; `unfiltered` then gets the figures
+/// before it.
+std::vector<MeasuredFrame> measure_frames(const FramePipeline& pipeline,
+                                          const std::vector<TabledReadout>& readouts,
+                                          const FrameOptions& options,
+                                          std::vector<FrameFigures>& unfiltered) {
+  std::vector<MeasuredFrame> frames;
+  for (const TabledReadout& readout : readouts) {
+    frames.push_back(pipeline.measure(readout, frame_precision(options)));
+    if (options.host_filter) {
+      unfiltered.push_back(frames.back().maps.figures);
+      frames.back().maps = filtered_maps(frames.back(), readout, pipeline);
+    }
   }
+  return frames;
+}
+
+/// Throws InputError for options of which each excludes the other.
+void check_together(const FrameOptions& options, std::size_t readouts) {
   if (options.host_filter && options.precision_percent) {
     throw InputError("--host-filter works on one frame, --precision takes many: choose one");
+  }
+  if (!options.run.trace.empty() && readouts != 1) {
+    throw InputError("--trace needs exactly one read-out");
   }
   if (!options.run.trace.empty() && options.precision_percent) {
     throw InputError("--trace shows one frame, --precision takes many: choose one");
   }
+}
+
+void run_frame_command(const FrameOptions& options, JsonResult& result) {
+  check_run_options(options.run);
+  std::vector<ReadoutParameters> readouts =
+      options.readout.parameters(options.run.readouts(), settled_sensor(options));
+  check_together(options, readouts.size());
   const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
   options.scene.check_distances(sensor);
   check_frame_memory(sensor, options.scene.array_rows.value_or(sensor.rows));
@@ -309,9 +331,7 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
     readouts = without_unfit_engines(scene, std::move(readouts), options.run, region);
   }
   check_engine(scene, readouts, options.run, region);
-  if (options.host_filter) {
-    check_filtered_region(region);
-  }
+  check_filtered_region(region, options.host_filter);
   const FramePipeline pipeline(scene, engine,
                                {.region = region,
                                 .fidelity = fidelity,
@@ -334,15 +354,10 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
   if (!options.record.empty()) {
     write_stream_csv(options.record, *make_source(fidelity, scene));
   }
-  std::vector<MeasuredFrame> frames;
   std::vector<FrameFigures> unfiltered;
-  for (const TabledReadout& readout : tabled) {
-    frames.push_back(pipeline.measure(readout, frame_precision(options)));
-    if (options.host_filter) {
-      unfiltered.push_back(frames.back().maps.figures);
-      frames.back().maps = filtered_maps(frames.back(), readout, pipeline);
-    }
-    write_readout_files(frames.back(), region, range, sensor, options);
+  const std::vector<MeasuredFrame> frames = measure_frames(pipeline, tabled, options, unfiltered);
+  for (const MeasuredFrame& frame : frames) {
+    write_readout_files(frame, region, range, sensor, options);
   }
   write_overview(frames, region, truth, range, sensor, options);
   double seconds = 0.0;

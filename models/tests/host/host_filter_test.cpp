@@ -183,7 +183,7 @@ TEST(HostFilter, ALonePixelTakesTheSurfaceOfTwoThirdsOfTheOthers) {
   EXPECT_EQ(filtered(two)[12], 9000U);
 }
 
-// Of the three by three pixels at a corner six of the eight others.
+// The window at a corner has three by three pixels; six of the eight others are two thirds and more.
 TEST(HostFilter, ALonePixelInACornerNeedsSixOfEight) {
   Map map{3, {9000, 20000, 20000, 20000, 20000, 20000, 20000, 40000, 40000}};
   EXPECT_EQ(filtered(map)[0], 20000U);
@@ -214,7 +214,7 @@ TEST(HostFilter, AnInvalidPixelIsFilledAsALoneOneIs) {
     map.depths[i] = 60000 + 20000 * static_cast<std::uint32_t>(i);
   }
   EXPECT_EQ(filtered(map)[12], kNone);  // 15 of 24
-  // Of eight valid others six are enough: the rest may be invalid.
+  // Six of eight valid others are enough; the rest may be invalid.
   Map few{5, std::vector<std::uint32_t>(25, kNone)};
   for (const std::size_t i : {6U, 7U, 8U, 11U, 13U, 16U}) {
     few.depths[i] = 7000;
