@@ -29,7 +29,7 @@ SceneTruth step_truth() {
 
 TEST(HostFilterStudy, CountsEqualHandCalculations) {
   // Within 3 %; 5 % off; between both surfaces, flying; on the other surface; not judged; 11 % off.
-  const std::vector<double> measured = {1.03, 2.1, 1.5, 1.0, 9.0, 2.22};
+  const std::vector<double> measured = {1.029, 2.1, 1.5, 1.0, 9.0, 2.22};
   EXPECT_THAT(
       count_pixels(step_truth(), measured),
       ElementsAre(PixelCount{4, 5}, PixelCount{3, 5}, PixelCount{3, 4}, PixelCount{1, 1}, PixelCount{2, 4}));
