@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-.PHONY: claims design-judgement detection dynamic-range hostile-scenes frames leaderboard pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
+.PHONY: claims design-judgement detection dynamic-range hostile-scenes host-filter frames leaderboard pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SMALL_SCENES := $(if $(SMALL),--klux 14 --columns 8)
 SMALL_POOL := $(if $(SMALL),--klux 14 --scene planes --seeds 2)
+HOST_FILTER := $(if $(SMALL),--klux 14 --scene planes --columns 8 --seeds 2 --no-goal,--columns 20)
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -98,6 +99,18 @@ hostile-scenes: study-program
 	@$(DTOF_STUDY) hostile-scenes $(if $(SMALL),--klux 14 --rows 16 --seeds 2) \
 	  --seed $(SEED) --out $(OUT)/hostile_scenes
 	@scripts/publish.py hostile_scenes
+
+# 20 columns of each map: the matched filters and the histogram are most of the time.
+host-filter: study-program
+	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
+	  set -e; \
+	  scripts/reports.py begin host_filter; \
+	  $(DTOF_STUDY) host-filter --held-out $(SCENE_MAPS) $(HOST_FILTER) --seed $(SEED) --out $(OUT)/host_filter; \
+	  scripts/publish.py host_filter; \
+	else \
+	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/host_filter_synthetic"; \
+	  $(DTOF_STUDY) host-filter --held-out $(HOST_FILTER) --seed $(SEED) --out $(OUT)/host_filter_synthetic; \
+	fi
 
 detection: study-program
 	@scripts/reports.py begin detection

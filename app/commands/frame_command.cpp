@@ -17,6 +17,7 @@
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "commands/commands.hpp"
+#include "commands/filtered_frame.hpp"
 #include "commands/frame_scene.hpp"
 #include "commands/json_result.hpp"
 #include "commands/optional_output.hpp"
@@ -48,6 +49,7 @@ struct FrameOptions {
   std::optional<double> precision_percent;
   int most_frames = 1000;
   std::uint32_t settle = 0;
+  bool host_filter = false;
   std::string out = "build/my_frame";  // build/frame is that of the main job
   std::string record;
   bool json = false;
@@ -90,7 +92,9 @@ void write_readout_files(const MeasuredFrame& frame, const Region& region, const
       {.title = fmt::format("{}, error in m: {}", title, scene), .largest_error = kLargestError});
 }
 
-Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& options) {
+/// `unfiltered`: each read-out's figures before the host filter; empty without it.
+Table summarise(const std::vector<MeasuredFrame>& frames, const std::vector<FrameFigures>& unfiltered,
+                const FrameOptions& options) {
   const bool tables = options.table != table_rule_name(TableRule::kNone);
   std::vector<std::string> head = figure_names(tables);
   head.insert(head.begin(), "read-out");
@@ -99,14 +103,20 @@ Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& op
     head.emplace_back("frames");
   }
   Table table(head);
-  for (const MeasuredFrame& frame : frames) {
-    std::vector<std::string> row = figure_values(frame.maps.figures, tables);
-    row.insert(row.begin(), std::string(readout_title(frame.parameters.readout)));
+  const auto add = [&](const MeasuredFrame& frame, const FrameFigures& figures, const char* filter) {
+    std::vector<std::string> row = figure_values(figures, tables);
+    row.insert(row.begin(), fmt::format("{}{}", readout_title(frame.parameters.readout), filter));
     row.push_back(frame.run.cycles == 0 ? "-" : fmt::format("{}", frame.run.cycles));
     if (options.precision_percent) {
       row.push_back(fmt::format("{}{}", frame.frames, frame.precision_reached ? "" : "+"));
     }
     table.add(row);
+  };
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!unfiltered.empty()) {
+      add(frames[i], unfiltered[i], "");
+    }
+    add(frames[i], frames[i].maps.figures, unfiltered.empty() ? "" : " with host filter");
   }
   return table;
 }
@@ -204,9 +214,11 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const Region& regi
 }
 
 /// Each read-out's figures as numbers, of all frames taken.
-nlohmann::ordered_json json_readouts(const std::vector<MeasuredFrame>& frames) {
+nlohmann::ordered_json json_readouts(const std::vector<MeasuredFrame>& frames,
+                                     const std::vector<FrameFigures>& unfiltered) {
   auto readouts = nlohmann::ordered_json::array();
-  for (const MeasuredFrame& frame : frames) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const MeasuredFrame& frame = frames[i];
     nlohmann::ordered_json readout = {{"readout", readout_name(frame.parameters.readout)},
                                       {"title", readout_title(frame.parameters.readout)},
                                       {"parameters", frame.parameters.to_string()},
@@ -221,6 +233,14 @@ nlohmann::ordered_json json_readouts(const std::vector<MeasuredFrame>& frames) {
       readout["share_above_3_percent"] = summary.share_above_3_percent;
       readout["share_above_10_percent"] = summary.share_above_10_percent;
       readout["without_distance"] = frame.maps.figures.without_distance;
+      if (!unfiltered.empty()) {
+        const ErrorSummary before = unfiltered[i].errors.summary();
+        readout["before_host_filter"] = {{"rmse_m", before.rmse_m},
+                                         {"bias_m", before.bias_m},
+                                         {"share_above_3_percent", before.share_above_3_percent},
+                                         {"share_above_10_percent", before.share_above_10_percent},
+                                         {"without_distance", unfiltered[i].without_distance}};
+      }
       if (frame.maps.figures.behind_another > 0) {
         readout["behind_another_return"] = frame.maps.figures.behind_another;
         readout["at_first_return"] = frame.maps.figures.at_first_return;
@@ -231,10 +251,10 @@ nlohmann::ordered_json json_readouts(const std::vector<MeasuredFrame>& frames) {
   return readouts;
 }
 
-void describe(const std::string& heading, const std::vector<MeasuredFrame>& frames, const std::string& out,
-              JsonResult& result) {
+void describe(const std::string& heading, const std::vector<MeasuredFrame>& frames,
+              const std::vector<FrameFigures>& unfiltered, const std::string& out, JsonResult& result) {
   result["heading"] = heading;
-  result["readouts"] = json_readouts(frames);
+  result["readouts"] = json_readouts(frames, unfiltered);
   result.add_folder(out);
 }
 
@@ -263,16 +283,41 @@ std::string times_text(TableRule rule, double table_seconds, double read_seconds
              : fmt::format("Look-up table in {:.1f} s, read out in {:.1f} s", table_seconds, read_seconds);
 }
 
-void run_frame_command(const FrameOptions& options, JsonResult& result) {
-  check_run_options(options.run);
-  std::vector<ReadoutParameters> readouts =
-      options.readout.parameters(options.run.readouts(), settled_sensor(options));
-  if (!options.run.trace.empty() && readouts.size() != 1) {
+/// A frame of each read-out, after the host filter if it is asked for; `unfiltered` then gets the figures
+/// before it.
+std::vector<MeasuredFrame> measure_frames(const FramePipeline& pipeline,
+                                          const std::vector<TabledReadout>& readouts,
+                                          const FrameOptions& options,
+                                          std::vector<FrameFigures>& unfiltered) {
+  std::vector<MeasuredFrame> frames;
+  for (const TabledReadout& readout : readouts) {
+    frames.push_back(pipeline.measure(readout, frame_precision(options)));
+    if (options.host_filter) {
+      unfiltered.push_back(frames.back().maps.figures);
+      frames.back().maps = filtered_maps(frames.back(), readout, pipeline);
+    }
+  }
+  return frames;
+}
+
+/// Throws InputError for options of which each excludes the other.
+void check_together(const FrameOptions& options, std::size_t readouts) {
+  if (options.host_filter && options.precision_percent) {
+    throw InputError("--host-filter works on one frame, --precision takes many: choose one");
+  }
+  if (!options.run.trace.empty() && readouts != 1) {
     throw InputError("--trace needs exactly one read-out");
   }
   if (!options.run.trace.empty() && options.precision_percent) {
     throw InputError("--trace shows one frame, --precision takes many: choose one");
   }
+}
+
+void run_frame_command(const FrameOptions& options, JsonResult& result) {
+  check_run_options(options.run);
+  std::vector<ReadoutParameters> readouts =
+      options.readout.parameters(options.run.readouts(), settled_sensor(options));
+  check_together(options, readouts.size());
   const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
   options.scene.check_distances(sensor);
   check_frame_memory(sensor, options.scene.array_rows.value_or(sensor.rows));
@@ -286,6 +331,7 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
     readouts = without_unfit_engines(scene, std::move(readouts), options.run, region);
   }
   check_engine(scene, readouts, options.run, region);
+  check_filtered_region(region, options.host_filter);
   const FramePipeline pipeline(scene, engine,
                                {.region = region,
                                 .fidelity = fidelity,
@@ -308,17 +354,17 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
   if (!options.record.empty()) {
     write_stream_csv(options.record, *make_source(fidelity, scene));
   }
-  std::vector<MeasuredFrame> frames;
-  for (const TabledReadout& readout : tabled) {
-    frames.push_back(pipeline.measure(readout, frame_precision(options)));
-    write_readout_files(frames.back(), region, range, sensor, options);
+  std::vector<FrameFigures> unfiltered;
+  const std::vector<MeasuredFrame> frames = measure_frames(pipeline, tabled, options, unfiltered);
+  for (const MeasuredFrame& frame : frames) {
+    write_readout_files(frame, region, range, sensor, options);
   }
   write_overview(frames, region, truth, range, sensor, options);
   double seconds = 0.0;
   for (const MeasuredFrame& frame : frames) {
     seconds += frame.run.seconds;
   }
-  const Table table = summarise(frames, options);
+  const Table table = summarise(frames, unfiltered, options);
   const std::string returns = first_return_sentence(frames) + precision_sentence(frames, options);
   const std::string heading = fmt::format(
       "Scene {}: {} x {} pixels, {} klux, sensor {}, {}, {} photons, engine {}{}, seed "
@@ -333,7 +379,7 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
   write_file(std::filesystem::path(options.out) / "summary.md",
              fmt::format("{}Command: `{}`\n", body, options.command_line));
-  describe(heading, frames, options.out, result);
+  describe(heading, frames, unfiltered, options.out, result);
   fmt::print("{}{}. Depth maps, error maps, point clouds and CSV are in {}\n", body,
              times_text(rule, table_seconds, seconds), options.out);
 }
@@ -363,6 +409,10 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
           "acquisitions at the frame's start that are dropped, as the register SETTLE does: the laser's\n"
           "start, where a sensor file has one; read-outs receive as many fewer")
       ->capture_default_str();
+  command->add_flag(
+      "--host-filter", options->host_filter,
+      "filter each depth map as a host does, with the same constants for every read-out: maps,\n"
+      "point clouds and errors are those after it; the table also has those before it");
   command->add_option("--max-frames", options->most_frames, "where --precision gives up")
       ->check(CLI::Range(4, 1'000'000))
       ->capture_default_str();

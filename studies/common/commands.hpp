@@ -32,6 +32,7 @@ void add_frames_command(CLI::App& app, const std::string& command_line);
 void add_dynamic_range_command(CLI::App& app, const std::string& command_line);
 void add_detection_command(CLI::App& app, const std::string& command_line);
 void add_hostile_scenes_command(CLI::App& app, const std::string& command_line);
+void add_host_filter_command(CLI::App& app, const std::string& command_line);
 void add_design_judgement_command(CLI::App& app, const std::string& command_line);
 void add_enlarge_command(CLI::App& app, const std::string& command_line);
 

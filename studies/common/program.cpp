@@ -30,6 +30,7 @@ Program study_program() {
         add_frames_command(app, command_line);
         add_dynamic_range_command(app, command_line);
         add_hostile_scenes_command(app, command_line);
+        add_host_filter_command(app, command_line);
         add_design_judgement_command(app, command_line);
         add_detection_command(app, command_line);
         add_enlarge_command(app, command_line);

@@ -110,6 +110,27 @@ TEST_F(Programs, FrameTakesMoreFramesUntilPreciseEnoughAndSaysHowMany) {
   EXPECT_THAT(read_file(path("out/summary.md")), HasSubstr("for 1 of 1 read-outs"));
 }
 
+// A flat wall of pixels of their own noise: the filter makes its errors smaller. The results stay.
+TEST_F(Programs, FrameFiltersTheMapAsAHostDoes) {
+  const std::string frame =
+      "frame -r hispointer --scene flat --distance 2 --array-columns 6 --array-rows 9 "
+      "--acquisitions 1000 ";
+  const Outcome plain = dtof(frame + "--out plain");
+  ASSERT_EQ(plain.exit_code, 0) << plain.output;
+  const Outcome filtered = dtof(frame + "--host-filter --json --out filtered");
+  ASSERT_EQ(filtered.exit_code, 0) << filtered.output;
+  const std::string before = read_file(path("plain/summary.csv"));
+  const std::string after = read_file(path("filtered/summary.csv"));
+  EXPECT_EQ(csv_cell(after, "hisPointer", "rmse mm"), csv_cell(before, "hisPointer", "rmse mm"));
+  EXPECT_LT(std::stod(csv_cell(after, "hisPointer with host filter", "rmse mm")),
+            0.6 * std::stod(csv_cell(before, "hisPointer", "rmse mm")));
+  EXPECT_EQ(read_file(path("filtered/hispointer.csv")), read_file(path("plain/hispointer.csv")));
+  EXPECT_NE(read_file(path("filtered/hispointer_depth_mm.png")),
+            read_file(path("plain/hispointer_depth_mm.png")));
+  EXPECT_NE(read_file(path("filtered/hispointer.ply")), read_file(path("plain/hispointer.ply")));
+  EXPECT_THAT(filtered.output, HasSubstr("\"before_host_filter\""));
+}
+
 TEST_F(Programs, CyclesAreThoseOfTheWholeArrayWhateverIsRead) {
   const auto cycles = [&](const std::string& options, const char* title) {
     const Outcome outcome = dtof("frame --engine rtl --table none -a 20 --out out " + options);

@@ -32,6 +32,8 @@ TEST_F(Programs, RefusesPrecisionWithoutNoise) {
   expect_refused("frame --fidelity auto --tolerance nan --out out", "tolerance");
   expect_refused("frame --precision 0 --out out", "--precision");
   expect_refused("frame -r fifh --engine rtl --trace x.fst --precision 5 --out out", "--trace");
+  expect_refused("frame --host-filter --precision 5 --out out", "--host-filter works on one frame");
+  expect_refused("frame --host-filter --columns 0-3,5 --out out", "--columns must be one range");
   expect_refused("accuracy --distances 2 --fidelity analytic --out out", "no noise");
 }
 
