@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the proofs of a module in the tree in which this file is: `proofs.py dtof_settle` prints the first assertion that fails."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+import formal  # noqa: E402
+
+
+def failing(module: str) -> str:
+    """The proof and the assertion that a counterexample breaks; nothing if there is none."""
+    for proof in formal.load_proofs():
+        if module not in proof.module.split(", "):
+            continue
+        for parameters in proof.parameters:
+            try:
+                outcome = formal.solve(formal.Job(proof, "prove", parameters))
+            except formal.FormalError:
+                continue  # says nothing about the design
+            if outcome.verdict == "failed":
+                return f"proof {proof.name}: {outcome.assertion}"
+    return ""
+
+
+if __name__ == "__main__":
+    print(failing(sys.argv[1]))
