@@ -77,7 +77,7 @@ class Build:
         self.tree = folder / "tree"
         self.binary = self.tree / "build" / "cpp"  # as in the project: with CCACHE_BASEDIR set, ccache has what the project's own build compiled
         self.log = folder / "build.log"
-        self.limits: dict[str, int] = {}  # seconds of processor time, by the tests' filter
+        self.limits: dict[str, int] = {}  # seconds of processor time, by the filter of the tests, in the order in which they run
         shutil.rmtree(folder, ignore_errors=True)
         copy_tree(self.tree)
         if models:
@@ -130,8 +130,8 @@ class Build:
 class LiveBuild(Build):
     """A build with all mutants, of which an environment variable makes one alive."""
 
-    def __init__(self, folder: Path, jobs: int) -> None:
-        super().__init__(folder, jobs)
+    def __init__(self, folder: Path, jobs: int, models: Sequence[str] = ()) -> None:
+        super().__init__(folder, jobs, models)
         change(self.tree / LENIENT[0], LENIENT[1], LENIENT[2])
         packages = self.tree / PACKAGES
         packages.write_text(rtl_schemata.DEFINITION + packages.read_text())

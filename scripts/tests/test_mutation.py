@@ -16,7 +16,6 @@ from mutation import (
     rtl,
     rtl_operators,
     sdc_operators,
-    subsystem,
     synthesis,
 )
 from mutation.explained import Explanation, explain
@@ -319,37 +318,6 @@ class Remembered(unittest.TestCase):
     def test_every_one_is_still_in_its_source(self) -> None:
         for folder in ("models", "hdl", synthesis.PACKAGE):
             self.assertTrue(remembered.load(mutate.ROOT, folder), folder)
-
-
-class Subsystem(unittest.TestCase):
-    def test_every_module_has_mutants_but_those_that_are_tested_elsewhere(self) -> None:
-        selection = subsystem.select(subsystem.ROOT, 10000, 1)
-        found = {Path(mutant.file).name for mutant in selection.mutants}
-        there = {path.name for path in (subsystem.ROOT / subsystem.FOLDER).glob("*.sv")}
-        self.assertEqual(there - found, set(subsystem.ELSEWHERE))
-        self.assertGreater(len(selection.mutants), 200)
-
-    def test_the_first_test_that_fails_kills(self) -> None:
-        output = "x.cpp:3: Failure\n[  FAILED  ] All/Faults.End/ez_3x3, where GetParam() = ez (5 ms)\n[  FAILED  ] 1 test\n"
-        self.assertEqual(subsystem.killer(output), "subsystem_test: All/Faults.End/ez_3x3")
-        self.assertEqual(subsystem.killer("Aborted\n"), "subsystem_test ends early")
-
-    def test_a_mutant_is_judged_by_the_tests_and_taken_back(self) -> None:
-        mutant = Mutant(file="hdl/subsystem/a.sv", line=1, begin=11, end=12, original="b", mutated="c", operator="x", source="",
-                        above="", place=0)  # fmt: skip
-        with tempfile.TemporaryDirectory() as folder:
-            tree = Path(folder)
-            (tree / "hdl/subsystem").mkdir(parents=True)
-            (tree / mutant.file).write_text("assign a = b;\n")
-            build = subsystem.Build.__new__(subsystem.Build)
-            build.tree, build.timeout_s = tree, 1.0
-            seen: list[str] = []
-            for by, state in (("subsystem_test: T", "killed"), (None, "survived")):
-                with mock.patch.object(build, "compile", lambda: seen.append((tree / mutant.file).read_text())), \
-                        mock.patch.object(build, "test", return_value=by):
-                    self.assertEqual(build.judge(mutant).state, state)
-            self.assertEqual(seen, ["assign a = c;\n"] * 2)
-            self.assertEqual((tree / mutant.file).read_text(), "assign a = b;\n")
 
 
 FLOW = """def both(a, b):
