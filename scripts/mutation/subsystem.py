@@ -4,6 +4,7 @@ once for each. Verilator compiles each of the others, constants and the like, in
 pass. What survives the tests is judged by the proofs of its module."""
 
 import hashlib
+import shutil
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
@@ -14,7 +15,7 @@ from mutation import progress, remembered, rtl_operators, rtl_schemata
 from mutation.cpp import stable_number
 from mutation.kept import Kept
 from mutation.mutant import Mutant, Selection
-from mutation.subsystem_build import ROOT, Build, Invalid, LiveBuild, OneBuild
+from mutation.subsystem_build import ROOT, Build, Invalid, LiveBuild, OneBuild, copy_tree
 from mutation.verdict import MutationError, Verdict
 
 FOLDER = "hdl/subsystem"
@@ -64,61 +65,42 @@ class Judge:
     def __init__(self, folder: Path, jobs: int) -> None:
         self.folder = folder
         self.jobs = jobs
-        self._ones: dict[str, OneBuild] = {}
-        self._digest = ""
+        self._builds: dict[str, OneBuild] = {}
 
-    def _one(self, name: str, models: Sequence[str], filters: Sequence[str]) -> OneBuild:
-        if name not in self._ones:
-            build = OneBuild(self.folder / name, self.jobs, models, optimise=0)
-            build.configure()
-            build.compile()
-            build.measure(filters)
-            self._ones[name] = build
-        return self._ones[name]
+    def _build(self, name: str, models: Sequence[str], filters: Sequence[str]) -> OneBuild:
+        if name not in self._builds:
+            self._builds[name] = OneBuild(self.folder / name, self.jobs, models, filters)
+        return self._builds[name]
 
     def few(self) -> OneBuild:
-        return self._one("few", FEW, FILTERS_OF_FEW)
+        return self._build("few", FEW, FILTERS_OF_FEW)
 
     def all(self) -> OneBuild:
-        return self._one("all", (), FILTERS)
+        return self._build("all", (), FILTERS)
 
     def compiled(self, mutant: Mutant) -> Verdict:
         """Judges a mutant that needs models of its own. Invalid if it does not compile."""
         for build in (self.few, self.all):
-            by = self.planted(build(), mutant)
+            by = self.by_build(build(), mutant)
             if by is not None:
                 return Verdict(mutant, "killed", by)
         return self.survivor(mutant)
 
-    def planted(self, build: OneBuild, mutant: Mutant) -> str | None:
-        original = build.plant(mutant)
-        try:
+    def by_build(self, build: OneBuild, mutant: Mutant) -> str | None:
+        """The first test of a build that notices a mutant."""
+        if build.same_circuit(mutant):
+            return None
+        build.prepare()
+        with build.planted(mutant):
             build.compile()
             return by_tests(build)
-        finally:
-            (build.tree / mutant.file).write_text(original)
 
     def survivor(self, mutant: Mutant) -> Verdict:
         """Judges a mutant that the tests pass: is it another circuit at all, and do the module's proofs notice?"""
-        if self.same_circuit(mutant):
+        if self.all().same_circuit(mutant):
             return Verdict(mutant, "proved equivalent", "the same compiled circuit in every configuration")
         by = self.proofs(mutant)
         return Verdict(mutant, "killed", by) if by else Verdict(mutant, "survived", "")
-
-    def same_circuit(self, mutant: Mutant) -> bool:
-        build = self.all()
-        if not self._digest:
-            build.verilate()
-            self._digest = build.digest()
-        original = build.plant(mutant)
-        try:
-            build.verilate()
-            return build.digest() == self._digest
-        except Invalid:
-            return False
-        finally:
-            (build.tree / mutant.file).write_text(original)
-            build.verilate()
 
     def proofs(self, mutant: Mutant) -> str:
         return self.in_tree(mutant, ["scripts/mutation/proofs.py", Path(mutant.file).stem]).stdout.strip()
@@ -134,21 +116,24 @@ class Judge:
         by = self.proofs(mutant)
         return Verdict(mutant, "killed", by) if by else Verdict(mutant, "survived", "")
 
-    def in_tree(self, mutant: Mutant | None, command: list[str], folder: str = ".") -> subprocess.CompletedProcess[str]:
+    def in_tree(self, mutant: Mutant, command: Sequence[str], folder: str = ".") -> subprocess.CompletedProcess[str]:
         """Runs Python in a tree with the mutant."""
-        tree = self.few().tree
-        original = self.few().plant(mutant) if mutant else ""
+        tree = self.folder / "sources"
+        if not tree.exists():
+            copy_tree(tree)
+        target = tree / mutant.file
+        original = target.read_text()
+        target.write_text(mutant.planted(original))
         try:
-            return subprocess.run([sys.executable, *command], cwd=tree / folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            return subprocess.run([sys.executable, "-B", *command], cwd=tree / folder, text=True, stdout=subprocess.PIPE,
+                                  stderr=subprocess.DEVNULL)  # fmt: skip
         finally:
-            if mutant:
-                (tree / mutant.file).write_text(original)
+            target.write_text(original)
 
 
 def refused_by_icarus(mutant: Mutant, tree: Path = ROOT) -> bool:
     """True if the mutant does not compile where its module is simulated."""
-    text = (tree / mutant.file).read_text()
-    changed = text[: mutant.begin] + mutant.mutated + text[mutant.end :]
+    changed = mutant.planted((tree / mutant.file).read_text())
     others = [str(tree / FOLDER / name) for name in ELSEWHERE if name != Path(mutant.file).name]
     command = ["iverilog", "-g2012", f"-I{tree}/hdl/common", "-t", "null", *others, "/dev/stdin"]
     return subprocess.run(command, input=changed, text=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode != 0
@@ -168,6 +153,7 @@ class Run:
 
     def __init__(self, folder: Path, jobs: int) -> None:
         folder.mkdir(parents=True, exist_ok=True)
+        shutil.rmtree(folder / "sources", ignore_errors=True)  # of an earlier run
         self.judge = Judge(folder, jobs)
         self.kept = Kept(folder / "verdicts.json")
         self.digest = digest(ROOT)

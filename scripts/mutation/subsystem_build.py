@@ -8,7 +8,8 @@ import resource
 import shutil
 import signal
 import subprocess
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from mutation import cpp, rtl_schemata
@@ -177,14 +178,31 @@ def named(output: str, made: Mapping[str, Schemata]) -> set[Mutant]:
 
 
 class OneBuild(Build):
-    """A build that compiles one mutant after the other."""
+    """A build that compiles one mutant after the other, fast, for tests that are short."""
 
-    def plant(self, mutant: Mutant) -> str:
-        """Writes the mutant; returns the text without."""
+    def __init__(self, folder: Path, jobs: int, models: Sequence[str], filters: Sequence[str]) -> None:
+        super().__init__(folder, jobs, models, optimise=0)
+        self.filters = filters
+        self.configure()
+        self.verilate()
+        self.original = self.digest()
+
+    def prepare(self) -> None:
+        """Compiles and measures the build without a mutant, once."""
+        if not self.limits:
+            self.compile()
+            self.measure(self.filters)
+
+    @contextmanager
+    def planted(self, mutant: Mutant) -> Iterator[None]:
+        """The sources have the mutant inside."""
         target = self.tree / mutant.file
         original = target.read_text()
-        target.write_text(original[: mutant.begin] + mutant.mutated + original[mutant.end :])
-        return original
+        target.write_text(mutant.planted(original))
+        try:
+            yield
+        finally:
+            target.write_text(original)
 
     def digest(self) -> str:
         """Of the C++ that Verilator made from all models."""
@@ -193,3 +211,9 @@ class OneBuild(Build):
             if path.suffix in (".cpp", ".h"):
                 found.update(path.name.encode() + path.read_bytes())
         return found.hexdigest()
+
+    def same_circuit(self, mutant: Mutant) -> bool:
+        """True if no model differs. Invalid if Verilator refuses the mutant."""
+        with self.planted(mutant):
+            self.verilate()
+            return self.digest() == self.original

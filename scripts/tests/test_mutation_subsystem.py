@@ -157,21 +157,26 @@ class Subsystem(unittest.TestCase):
             (tree / "hdl/subsystem").mkdir(parents=True)
             (tree / mutant.file).write_text("assign a = b;\n")
             build = subsystem_build.OneBuild.__new__(subsystem_build.OneBuild)
-            build.tree = tree
+            build.tree, build.limits, build.original = tree, {"all": 1}, "assign a = b;\n"
             judge = subsystem.Judge(tree, 1)
             seen: list[str] = []
-            for by in ("subsystem_test: T", None):
-                with mock.patch.object(build, "compile", lambda: seen.append((tree / mutant.file).read_text())), \
-                        mock.patch.object(build, "test", return_value=by):
-                    self.assertEqual(judge.planted(build, mutant), by)
-            self.assertEqual(seen, ["assign a = c;\n"] * 2)
+            with mock.patch.object(build, "verilate"), mock.patch.object(build, "digest", lambda: (tree / mutant.file).read_text()), \
+                    mock.patch.object(build, "compile", lambda: seen.append((tree / mutant.file).read_text())):
+                for by in ("subsystem_test: T", None):
+                    with mock.patch.object(build, "test", return_value=by):
+                        self.assertEqual(judge.by_build(build, mutant), by)
+                self.assertEqual(seen, ["assign a = c;\n"] * 2)
+                build.original = "assign a = c;\n"  # the mutant is the same circuit: no test runs
+                with mock.patch.object(build, "test", side_effect=AssertionError):
+                    self.assertIsNone(judge.by_build(build, mutant))
             self.assertEqual((tree / mutant.file).read_text(), "assign a = b;\n")
 
     def test_a_survivor_is_equivalent_or_killed_by_a_proof_or_survives(self) -> None:
         mutant = subsystem.select(subsystem.ROOT, 1, 1).mutants[0]
         judge = subsystem.Judge(Path("unused"), 1)
         for same, proof, state in ((True, "", "proved equivalent"), (False, "proof settle: a_ends", "killed"), (False, "", "survived")):
-            with mock.patch.object(judge, "same_circuit", return_value=same), mock.patch.object(judge, "proofs", return_value=proof):
+            build = mock.Mock(same_circuit=lambda _, same=same: same)
+            with mock.patch.object(judge, "all", return_value=build), mock.patch.object(judge, "proofs", return_value=proof):
                 verdict = judge.survivor(mutant)
             self.assertEqual(verdict.state, state)
             self.assertIn(proof, verdict.by)
