@@ -117,9 +117,27 @@ class Subsystem(unittest.TestCase):
         text = (subsystem.ROOT / subsystem.FOLDER / subsystem.GENERATED).read_text()
         self.assertIn("scripts/generate.py", text)
 
+    def test_mutants_elsewhere_are_judged_by_simulations_and_proofs(self) -> None:
+        file = "hdl/subsystem/dtof_reset_synchroniser.sv"
+        text = (subsystem.ROOT / file).read_text()
+        mutants = rtl_operators.mutants(file, text)
+        with tempfile.TemporaryDirectory() as folder:
+            judge = subsystem.Judge(Path(folder), 1)
+            killed = judge.elsewhere(next(mutant for mutant in mutants if mutant.change == "!rst_ni -> 1'b0"))
+            self.assertEqual(killed.by, f"scripts/tests: {subsystem.ELSEWHERE[Path(file).name][0]}")
+            same = Mutant(file=file, line=1, begin=text.index("// "), end=text.index("// ") + 3, original="// ", mutated="//  ", operator="x", source="",
+                          above="", place=0)  # fmt: skip
+            self.assertEqual(judge.elsewhere(same).state, "survived")
+            source = Path(folder) / "sources" / file
+            source.write_text(text.replace("or negedge rst_ni", ""))
+            judge = subsystem.Judge(Path(folder), 1)
+            with self.assertRaisesRegex(subsystem.MutationError, "fail without a mutant: test_reset_synchroniser"):
+                judge.elsewhere(same)
+
     def test_tests_elsewhere_are_there(self) -> None:
-        for name in subsystem.ELSEWHERE.values():
-            self.assertTrue((subsystem.ROOT / "scripts/tests" / f"{name}.py").exists(), name)
+        for name in {name for tests in subsystem.ELSEWHERE.values() for name in tests}:
+            module, _, test = name.partition(".")
+            self.assertIn(f"def {test.partition('.')[2]}(self)", (subsystem.ROOT / f"scripts/tests/{module}.py").read_text(), name)
 
     def test_the_first_test_that_fails_kills(self) -> None:
         output = "x.cpp:3: Failure\n[  FAILED  ] All/Faults.End/ez_3x3, where GetParam() = ez (5 ms)\n[  FAILED  ] 1 test\n"
