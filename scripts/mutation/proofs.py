@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the proofs of a module in the tree in which this file is: `proofs.py dtof_settle` prints the first assertion that fails."""
 
+import dataclasses
 import sys
 from pathlib import Path
 
@@ -9,14 +10,18 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import formal  # noqa: E402
 
 
+SECONDS = 120  # of processor time that a tool may take: a counterexample comes soon, or not at all
+
+
 def failing(module: str) -> str:
     """The proof and the assertion that a counterexample breaks; nothing if there is none."""
     for proof in formal.load_proofs():
         if module not in proof.module.split(", "):
             continue
+        short = dataclasses.replace(proof, timeout=min(proof.timeout, SECONDS))
         for parameters in proof.parameters:
             try:
-                outcome = formal.solve(formal.Job(proof, "prove", parameters))
+                outcome = formal.solve(formal.Job(short, "prove", parameters))
             except formal.FormalError:
                 continue  # says nothing about the design
             if outcome.verdict == "failed":
