@@ -74,6 +74,9 @@ TEST_P(Subsystem, SaysWhatItIs) {
   EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
   EXPECT_EQ(bench_.get(DTOF_OUTPUT), pool ? DTOF_OUTPUT_SMOOTH_MASK : 0U);
   EXPECT_EQ(bench_.get(DTOF_SHOT), 1U << DTOF_SHOT_UNIT_LSB) << "without a delay";
+  EXPECT_EQ(bench_.get(DTOF_GATE),
+            parameters.time_gate ? number(parameters.no_detection()) << DTOF_GATE_END_LSB : 0U)
+      << "all codes";
   EXPECT_EQ(bench_.get(DTOF_SHOT_SEED), 1U);
   EXPECT_EQ(bench_.get(DTOF_SHOT_STATE), 1U);
   const auto lines = static_cast<std::uint32_t>(bench_.acquisition_lines());
