@@ -44,7 +44,7 @@ LONG = ("*Gaps.ChangeNoResult/*", "*RandomStreamFaults.*", "*.AWarningIsNotLostI
 PRODUCTS = ("DriverExampleProducts.*", "GoogleTestVerification.*")
 FILTERS = (f"-*Long*:{':'.join(LONG)}", ":".join(LONG))
 FILTERS_OF_FEW = (f"{FILTERS[0]}:{':'.join(PRODUCTS)}", FILTERS[1])
-# Of each kind one subsystem: SRAM and registers as buffer, APB4 and AXI4-Lite, a source that waits and one that drops, raster order, two targets.
+# A subsystem of each kind: SRAM and registers as buffer, APB4 and AXI4-Lite, a source that waits and one that drops, raster order, two targets.
 FEW = ("subsystem_ez", "subsystem_his", "subsystem_pool_drops", "subsystem_second_raster", "subsystem_prior")
 
 
@@ -152,7 +152,7 @@ def refused_by_icarus(mutant: Mutant, tree: Path = ROOT) -> bool:
 
 
 def digest(tree: Path) -> str:
-    """Of what decides a verdict: RTL, models, tests, proofs."""
+    """Digest of what decides a verdict: RTL, models, tests, proofs."""
     found = hashlib.sha256()
     for name in DECIDING:
         for path in sorted(path for path in [tree / name, *(tree / name).rglob("*")] if path.is_file() and path.suffix != ".pyc"):

@@ -205,7 +205,7 @@ class OneBuild(Build):
             target.write_text(original)
 
     def digest(self) -> str:
-        """Of the C++ that Verilator made from all models."""
+        """Digest of the C++ that Verilator made from all models."""
         found = hashlib.sha256()
         for path in sorted(self.binary.rglob("verilated/*/V*.*")):
             if path.suffix in (".cpp", ".h"):
