@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the proofs of a module in the tree in which this file is: `proofs.py dtof_settle` prints the first assertion that fails."""
+"""Runs the proofs of a module of the tree in which this file is: `python3 -m mutation.proofs dtof_settle` in scripts/ prints the first assertion
+that fails."""
 
 import dataclasses
 import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-
-import formal  # noqa: E402
+import formal
 
 
 SECONDS = 120  # of processor time that a tool may take: a counterexample comes soon, or not at all

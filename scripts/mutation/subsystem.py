@@ -110,7 +110,7 @@ class Judge:
         return Verdict(mutant, "killed", by) if by else Verdict(mutant, "survived", "")
 
     def proofs(self, mutant: Mutant) -> str:
-        return self.in_tree(mutant, ["scripts/mutation/proofs.py", Path(mutant.file).stem]).stdout.strip()
+        return self.in_tree(mutant, ["-m", "mutation.proofs", Path(mutant.file).stem]).stdout.strip()
 
     def elsewhere(self, mutant: Mutant) -> Verdict:
         """Judges a mutant of a module that no Verilated subsystem contains."""
@@ -118,27 +118,27 @@ class Judge:
             raise Invalid
         for test in ELSEWHERE[Path(mutant.file).name]:
             if test not in self._passed:
-                if self.in_tree(None, ["-m", "unittest", f"tests.{test}"], "scripts").returncode != 0:
+                if self.in_tree(None, ["-m", "unittest", f"tests.{test}"]).returncode != 0:
                     raise MutationError(f"scripts/tests fail without a mutant: {test}")
                 self._passed.add(test)
-            if self.in_tree(mutant, ["-m", "unittest", "-f", f"tests.{test}"], "scripts").returncode != 0:
+            if self.in_tree(mutant, ["-m", "unittest", "-f", f"tests.{test}"]).returncode != 0:
                 return Verdict(mutant, "killed", f"scripts/tests: {test}")
         by = self.proofs(mutant)
         return Verdict(mutant, "killed", by) if by else Verdict(mutant, "survived", "")
 
-    def in_tree(self, mutant: Mutant | None, command: Sequence[str], folder: str = ".") -> subprocess.CompletedProcess[str]:
-        """Runs Python in a tree with the mutant, or without any."""
+    def in_tree(self, mutant: Mutant | None, command: Sequence[str]) -> subprocess.CompletedProcess[str]:
+        """Runs Python in the folder scripts of a tree with the mutant, or without any."""
         tree = self.folder / "sources"
         if not tree.exists():
             copy_tree(tree)
         arguments = [sys.executable, "-B", *command]
         if mutant is None:
-            return subprocess.run(arguments, cwd=tree / folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            return subprocess.run(arguments, cwd=tree / "scripts", text=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         target = tree / mutant.file
         original = target.read_text()
         target.write_text(mutant.planted(original))
         try:
-            return subprocess.run(arguments, cwd=tree / folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            return subprocess.run(arguments, cwd=tree / "scripts", text=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         finally:
             target.write_text(original)
 

@@ -206,10 +206,14 @@ class Subsystem(unittest.TestCase):
             for part in ("hdl", "formal", "scripts", "synth/dtof_synth"):
                 shutil.copytree(subsystem.ROOT / part, tree / part, ignore=shutil.ignore_patterns("__pycache__", "tests"))
             module = tree / "hdl/subsystem/dtof_saturating_counter.sv"
-            command = [sys.executable, str(tree / "scripts/mutation/proofs.py"), module.stem]
-            self.assertEqual(subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip(), "")
+
+            def failing() -> str:
+                command = [sys.executable, "-m", "mutation.proofs", module.stem]
+                return subprocess.run(command, cwd=tree / "scripts", capture_output=True, text=True, check=True).stdout.strip()
+
+            self.assertEqual(failing(), "")
             subsystem_build.change(module, "sum[WIDTH] ? {WIDTH{1'b1}}", "sum[WIDTH] ? {WIDTH{1'b0}}")
-            self.assertIn("proof saturating_counter: ", subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+            self.assertIn("proof saturating_counter: ", failing())
 
 
 if __name__ == "__main__":
