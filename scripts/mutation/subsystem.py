@@ -35,6 +35,7 @@ ELSEWHERE = {
 SIMULATIONS = sorted({test.partition(".")[0] for tests in ELSEWHERE.values() for test in tests})
 DECIDING = ("hdl", "tb_cpp", "driver", "models", "formal", "scripts/formal.py", "scripts/tests/async_line_fifo_bench.sv",
             *(f"scripts/tests/{name}.py" for name in SIMULATIONS))  # fmt: skip
+REFUSED = "refused"  # by the compiler: kept for a run that goes on, never counted
 LEAST_OF_FILE = 2  # mutants of each file, however small
 # First all tests but those that take nearly all of the time, then these. Frames of 3,333 acquisitions and more say nothing about a subsystem that
 # shorter ones do not.
@@ -178,20 +179,22 @@ class Run:
 
     def judged(self, mutants: Sequence[Mutant]) -> set[Mutant]:
         """Judges those that have no verdict yet; returns those that do not compile."""
-        self.verdicts |= {mutant: found for mutant in mutants if (found := self.kept.get(mutant, self.digest))}
-        waiting = [mutant for mutant in mutants if mutant not in self.verdicts]
+        known = {mutant: found for mutant in mutants if (found := self.kept.get(mutant, self.digest))}
+        refused = {mutant for mutant, found in known.items() if found.state == REFUSED}
+        self.verdicts |= {mutant: found for mutant, found in known.items() if mutant not in refused}
+        waiting = [mutant for mutant in mutants if mutant not in self.verdicts and mutant not in refused]
         elsewhere = [mutant for mutant in waiting if Path(mutant.file).name in ELSEWHERE]
         inside = [mutant for mutant in waiting if mutant not in elsewhere]
         constants = {mutant for file in {mutant.file for mutant in inside}
                      for mutant in rtl_schemata.apart((ROOT / file).read_text(), [one for one in inside if one.file == file])}  # fmt: skip
         constants |= self.together({mutant: stable_number(mutant) for mutant in inside if mutant not in constants})
-        refused: set[Mutant] = set()
         for mutant in waiting:
             if mutant in elsewhere or mutant in constants:
                 try:
                     self.note(self.judge.elsewhere(mutant) if mutant in elsewhere else self.judge.compiled(mutant))
                 except Invalid:
                     refused.add(mutant)
+                    self.kept.put(Verdict(mutant, REFUSED, ""), self.digest)
         return refused
 
     def together(self, numbered: Mapping[Mutant, int]) -> set[Mutant]:

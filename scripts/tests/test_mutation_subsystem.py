@@ -13,6 +13,7 @@ from unittest import mock
 
 from mutation import rtl_operators, rtl_schemata, subsystem, subsystem_build
 from mutation.mutant import Mutant
+from mutation.verdict import Verdict
 
 LIVE = """// SPDX-License-Identifier: Apache-2.0
 package dtof_pkg;
@@ -198,6 +199,29 @@ class Subsystem(unittest.TestCase):
                 verdict = judge.survivor(mutant)
             self.assertEqual(verdict.state, state)
             self.assertIn(proof, verdict.by)
+
+    def test_an_interrupted_run_goes_on_and_replaces_what_does_not_compile(self) -> None:
+        def compiled(mutant: Mutant) -> Verdict:
+            judged.append(mutant)
+            if mutant == first[0]:
+                raise subsystem_build.Invalid
+            return Verdict(mutant, "killed", "subsystem_test: T")
+
+        first = subsystem.select(subsystem.ROOT, 1, 1).mutants
+        judged: list[Mutant] = []
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(subsystem, "digest", return_value="same"), \
+                mock.patch.object(subsystem.Run, "together", lambda _, numbered: set(numbered)), \
+                mock.patch.object(subsystem.Judge, "compiled", side_effect=compiled), \
+                mock.patch.object(subsystem.Judge, "elsewhere", side_effect=compiled):  # fmt: skip
+            found = subsystem.run(1, 1, Path(folder), 1)
+            self.assertEqual((len(found), len(judged)), (len(first), len(first) + 1))
+            self.assertNotIn(first[0], [verdict.mutant for verdict in found])
+            judged.clear()
+            self.assertEqual(subsystem.run(1, 1, Path(folder), 1), found)
+            self.assertEqual(judged, [])
+            with mock.patch.object(subsystem, "digest", return_value="other tests"):
+                subsystem.run(1, 1, Path(folder), 1)
+            self.assertEqual(len(judged), len(first) + 1)
 
     def test_a_proof_kills(self) -> None:
         """In a tree of its own, whose dtof_saturating_counter does not saturate."""
