@@ -94,13 +94,14 @@ def markdown(parts: Mapping[str, Sequence[Verdict]], runs: Mapping[str, Run], ro
         "# Mutants",
         "What `make mutate` found. A mutant is one small change of the code: another operator or constant, "
         "a condition negated, a statement removed, one of two names that are easily mixed up. A killed mutant makes a test "
-        "fail, crash or hang; "
+        "or a proof fail, or a program crash or hang; "
         "[mutants.csv](mutants.csv) names it. A proved equivalent one compiles to the same machine code or circuit, or "
         "Yosys and ABC prove that no input tells it from the original; an argued equivalent one has its argument "
-        "below. The interval is Wilson's for a drawn sample. What must be killed: "
+        "below. The interval is Wilson's for a drawn sample; "
+        "it is too high where tests were added for survivors of this very sample. What must be killed: "
         f"{100 * LEAST_KILLED:.0f} % of a language, {100 * LEAST_KILLED_OF['subsystem']:.0f} % of the subsystem, "
         f"{100 * LEAST_KILLED_OF_FILE['synthesis']:.0f} % in each file of the synthesis flow.",
-        "Each part was measured in a run of its own (`scripts/mutate.py --only`):",
+        "Parts can be measured one by one (`scripts/mutate.py --only`):",
         "\n".join(measured(language, verdicts, runs[language], root) for language, verdicts in parts.items()),
         summary(parts),
     ]
