@@ -36,7 +36,7 @@ def load(path: Path = EXPLAINED) -> list[Explanation]:
         raise MutationError(f"{path}: {error}") from None
 
 
-def _still_there(mutant: Mutant, root: Path) -> bool:
+def still_there(mutant: Mutant, root: Path) -> bool:
     """True if the source still has the line that the mutant changes."""
     try:
         lines = (root / mutant.file).read_text(encoding="utf-8").splitlines()
@@ -54,6 +54,6 @@ def explain(verdict: Verdict, known: list[Explanation], root: Path = ROOT) -> Ve
         if explanation.fits(verdict.mutant):
             state = "argued equivalent" if explanation.equivalent else "survived"
             return replace(verdict, state=state, by=explanation.reason)
-    if verdict.by and not _still_there(verdict.mutant, root):
+    if verdict.by and not still_there(verdict.mutant, root):
         return verdict
     return replace(verdict, state="survived", by="")

@@ -28,6 +28,10 @@ class Mutant:
     def change(self) -> str:
         return f"{one_line(self.original)} -> {one_line(self.mutated)}"
 
+    def planted(self, text: str) -> str:
+        """The source with the mutant."""
+        return text[: self.begin] + self.mutated + text[self.end :]
+
     def overlaps(self, other: "Mutant") -> bool:
         return self.file == other.file and self.begin < other.end and other.begin < self.end
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes many mutants into one C++ source. At run time each place checks whether its mutant is active."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from mutation.mutant import Mutant
@@ -28,14 +28,19 @@ def with_mutants(text: str, numbered: Mapping[Mutant, int]) -> Schemata:
             inside = text[: mutant.constant[0]].rstrip().endswith("static")
             _, others = edits.setdefault(mutant.constant, ("inline const" if inside else "const", []))
             others.append(mutant)
+    return written(text, edits, numbered)
+
+
+def written(text: str, edits: Mapping[tuple[int, int], tuple[str, list[Mutant]]], mutants: Iterable[Mutant]) -> Schemata:
+    """Applies edits, by the place that each replaces: its new text, and the mutants for which it is there."""
     parts: list[str] = []
-    lines: dict[Mutant, set[int]] = {mutant: set() for mutant in numbered}
+    lines: dict[Mutant, set[int]] = {mutant: set() for mutant in mutants}
     line, position = 1, 0
-    for (begin, end), (replacement, mutants) in sorted(edits.items()):
+    for (begin, end), (replacement, owners) in sorted(edits.items()):
         kept = text[position:begin]
         line += kept.count("\n")
         after = line + replacement.count("\n")
-        for mutant in mutants:
+        for mutant in owners:
             lines[mutant].update(range(line, after + 1))
         parts += [kept, replacement]
         line, position = after, end

@@ -4,7 +4,6 @@
 import ast
 import compileall
 import hashlib
-import json
 import os
 import queue
 import re
@@ -18,6 +17,7 @@ from functools import cache
 from pathlib import Path
 
 from mutation import progress, python_operators, remembered, sdc_operators
+from mutation.kept import Kept
 from mutation.mutant import Mutant, Selection
 from mutation.verdict import MutationError, Verdict
 
@@ -159,28 +159,6 @@ class Trees:
             target.write_text(original, encoding="utf-8")
             self.free.put(tree)
         return Verdict(mutant, "survived", "") if by is None else Verdict(mutant, "killed", by)
-
-
-class Kept:
-    """Verdicts of earlier runs on the same flow with the same tests."""
-
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        self._found: dict[str, list[str]] = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-
-    @staticmethod
-    def _key(mutant: Mutant, digest_of_all: str) -> str:
-        return f"{digest_of_all} {mutant.file} {mutant.begin} {mutant.end} {mutant.mutated}"
-
-    def get(self, mutant: Mutant, digest_of_all: str) -> Verdict | None:
-        found = self._found.get(self._key(mutant, digest_of_all))
-        return Verdict(mutant, *found) if found else None
-
-    def put(self, verdict: Verdict, digest_of_all: str) -> None:
-        self._found[self._key(verdict.mutant, digest_of_all)] = [verdict.state, verdict.by]
-        written = self._path.with_suffix(".new")
-        written.write_text(json.dumps(self._found), encoding="utf-8")
-        written.replace(self._path)
 
 
 def select(tree: Path, count: int, seed: int, files: Iterable[str] = FILES) -> Selection:

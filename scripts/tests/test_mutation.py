@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
+import argparse
+import datetime
 import subprocess
 import tempfile
 import unittest
@@ -16,7 +18,6 @@ from mutation import (
     rtl,
     rtl_operators,
     sdc_operators,
-    subsystem,
     synthesis,
 )
 from mutation.explained import Explanation, explain
@@ -218,9 +219,10 @@ class ReportOfCpp(unittest.TestCase):
                 verdicts = [cpp.judge(build, mutant, number, seconds) for number, mutant in enumerate(chosen, 1)]
             self.assertEqual([verdict.state for verdict in verdicts], ["killed", "killed", "survived"])
             table = folder / "mutants.csv"
-            report.write_table({"C++": verdicts}, {"C++": 1}, table)
-            parts, seeds = report.read_table(table)
-            text = report.markdown(parts, seeds)
+            report.write_table({"C++": verdicts}, {"C++": report.Run(1, "2026-01-02")}, table)
+            parts, runs = report.read_table(table)
+            self.assertEqual(runs, {"C++": report.Run(1, "2026-01-02")})
+            text = report.markdown(parts, runs)
             self.assertIn("- models/dtof/core/tested.cpp:4 `value + 1 -> value - 1`: NOT EXPLAINED", text)
             self.assertIn("| **C++** | 3 | 2 | 0 | 0 | 1 | 66.7 % |", text)
             self.assertEqual([verdict.state for verdict in parts["C++"]], ["killed", "killed", "survived"])
@@ -315,41 +317,52 @@ class ReportOfRtl(unittest.TestCase):
                 self.assertEqual(proved, same)
 
 
+class RunOfOnePart(unittest.TestCase):
+    """`--only` renews a part of a table whose other parts are older."""
+
+    OLD = ("language,seed,file,line,operator,original,mutated,verdict,by,source,above\n"
+           "RTL,7,hdl/common/gone.sv,3,constant,0,1,killed,bench,assign gone = 0;,\n"
+           "subsystem,7,hdl/subsystem/gone.sv,3,constant,0,1,survived,,assign gone = 0;,\n")  # fmt: skip
+
+    def run_of(self, reports: Path, verdicts: list[Verdict], status: int) -> tuple[str, str]:
+        table = reports / "mutants.csv"
+        arguments = argparse.Namespace(only="subsystem", explain=False, seed=2, count=None, jobs=1)
+        with mock.patch.object(mutate, "TABLE", table), mock.patch.object(mutate, "judged", return_value=verdicts), \
+                mock.patch("builtins.print"):  # fmt: skip
+            self.assertEqual(mutate.run(arguments), status)
+        return table.read_text(), table.with_suffix(".md").read_text()
+
+    def test_other_parts_and_the_mark_of_a_stale_page_stay(self) -> None:
+        file = "hdl/subsystem/dtof_settle.sv"
+        mutants = rtl_operators.mutants(file, (mutate.ROOT / file).read_text())
+        verdicts = [Verdict(mutants[0], "killed", "subsystem_test: T")]
+        with tempfile.TemporaryDirectory() as name:
+            reports = Path(name)
+            (reports / "mutants.csv").write_text(self.OLD)
+            (reports / "mutants.md").write_text("> Measured before: changes in hdl.\n\n# Mutants\n\nold\n")
+            table, page = self.run_of(reports, verdicts, 0)
+            self.assertTrue(page.startswith("> Measured before: changes in hdl.\n\n# Mutants\n\nWhat "))
+            today = datetime.date.today().isoformat()
+            self.assertIn("- RTL: seed 7, date unknown; **measured before**: 1 of the 1 changed lines are no longer in the sources\n", page)
+            self.assertIn(f"- subsystem: seed 2, measured on {today}; all 1 changed lines are in the sources\n", page)
+            self.assertIn("RTL,7,,hdl/common/gone.sv,3,", table)
+            self.assertNotIn("hdl/subsystem/gone.sv", table)
+            self.assertIn(f"subsystem,2,{today},{file},", table)
+
+    def test_less_than_97_percent_of_the_subsystem_fail(self) -> None:
+        file = "hdl/subsystem/dtof_settle.sv"
+        mutants = rtl_operators.mutants(file, (mutate.ROOT / file).read_text())[:34]
+        for survivors, status in ((1, 0), (2, 1)):  # 97.1 % and 94.1 %
+            verdicts = [Verdict(mutant, "survived" if i < survivors else "killed", "because") for i, mutant in enumerate(mutants)]
+            with tempfile.TemporaryDirectory() as name, mock.patch.object(mutate, "explain", lambda verdict, _: verdict), \
+                    mock.patch.object(mutate, "load"):  # fmt: skip
+                self.assertNotIn("Measured before", self.run_of(Path(name), verdicts, status)[1])
+
+
 class Remembered(unittest.TestCase):
     def test_every_one_is_still_in_its_source(self) -> None:
         for folder in ("models", "hdl", synthesis.PACKAGE):
             self.assertTrue(remembered.load(mutate.ROOT, folder), folder)
-
-
-class Subsystem(unittest.TestCase):
-    def test_every_module_has_mutants_but_those_that_are_tested_elsewhere(self) -> None:
-        selection = subsystem.select(subsystem.ROOT, 10000, 1)
-        found = {Path(mutant.file).name for mutant in selection.mutants}
-        there = {path.name for path in (subsystem.ROOT / subsystem.FOLDER).glob("*.sv")}
-        self.assertEqual(there - found, set(subsystem.ELSEWHERE))
-        self.assertGreater(len(selection.mutants), 200)
-
-    def test_the_first_test_that_fails_kills(self) -> None:
-        output = "x.cpp:3: Failure\n[  FAILED  ] All/Faults.End/ez_3x3, where GetParam() = ez (5 ms)\n[  FAILED  ] 1 test\n"
-        self.assertEqual(subsystem.killer(output), "subsystem_test: All/Faults.End/ez_3x3")
-        self.assertEqual(subsystem.killer("Aborted\n"), "subsystem_test ends early")
-
-    def test_a_mutant_is_judged_by_the_tests_and_taken_back(self) -> None:
-        mutant = Mutant(file="hdl/subsystem/a.sv", line=1, begin=11, end=12, original="b", mutated="c", operator="x", source="",
-                        above="", place=0)  # fmt: skip
-        with tempfile.TemporaryDirectory() as folder:
-            tree = Path(folder)
-            (tree / "hdl/subsystem").mkdir(parents=True)
-            (tree / mutant.file).write_text("assign a = b;\n")
-            build = subsystem.Build.__new__(subsystem.Build)
-            build.tree, build.timeout_s = tree, 1.0
-            seen: list[str] = []
-            for by, state in (("subsystem_test: T", "killed"), (None, "survived")):
-                with mock.patch.object(build, "compile", lambda: seen.append((tree / mutant.file).read_text())), \
-                        mock.patch.object(build, "test", return_value=by):
-                    self.assertEqual(build.judge(mutant).state, state)
-            self.assertEqual(seen, ["assign a = c;\n"] * 2)
-            self.assertEqual((tree / mutant.file).read_text(), "assign a = b;\n")
 
 
 FLOW = """def both(a, b):

@@ -299,4 +299,22 @@ module subsystem_testbench #(
   end
   `DTOF_ASSERT(a_side_band, sram_cfg_answer == sram_cfg, "an SRAM does not hear its side band")
 
+  // Behind a reset the array's clock runs for eight clocks, in which data from before leave pipelines that have no reset.
+  logic [3:0] clocks, array_clocks;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      clocks <= '0;
+    end else if (clocks != '1) begin
+      clocks <= clocks + 1'b1;
+    end
+  end
+  always_ff @(posedge u_subsystem.array_clk or negedge rst_ni) begin
+    if (!rst_ni) begin
+      array_clocks <= '0;
+    end else if (array_clocks != 4'd8) begin
+      array_clocks <= array_clocks + 1'b1;
+    end
+  end
+  `DTOF_ASSERT(a_pipelines_run_empty, clocks != 4'd10 || array_clocks == 4'd8, "the array's clock stands still behind a reset")
+
 endmodule

@@ -148,6 +148,32 @@ TEST_P(SubsystemFrames, WithSettleAreThoseOfAStreamWithoutItsFirstAcquisitions) 
   EXPECT_TRUE(bench_.frames().back().lines.empty());
 }
 
+// Software chooses histograms or results while a frame sends the other ones.
+TEST_P(SubsystemFrames, AreHistogramsOrResultsAsAWhole) {
+  const RtlConfiguration& configuration = bench_.configuration();
+  if (!configuration.raw_histogram) {
+    GTEST_SKIP() << "the subsystem sends no histograms";
+  }
+  CounterRandom random = this->random(7);
+  FrameSettings settings{
+      .acquisitions = 1, .gate = {0, configuration.parameters.no_detection()}, .enabled = {}};
+  settings.raw_last = configuration.pixels_per_sram - 1;
+  write_settings(bench_, settings);
+  constexpr std::size_t kFrames = 40;
+  const std::vector<Line> lines = make_lines(configuration, 2 * kFrames, random);
+  run_with_changing_output(bench_, DTOF_OUTPUT_RAW_MASK, lines, kFrames, random);
+  int changes = 0;
+  for (std::size_t frame = 0; frame < kFrames; ++frame) {
+    SCOPED_TRACE(testing::Message() << "frame " << frame);
+    const std::vector<ResultFields> received = received_results(bench_, frame);
+    ASSERT_FALSE(received.empty());
+    changes += received.front().raw != settings.raw ? 1 : 0;
+    settings.raw = received.front().raw;
+    ASSERT_EQ(received, expected_results(bench_, settings, bench_.frames().at(frame).lines));
+  }
+  EXPECT_GT(changes, 5);
+}
+
 constexpr std::uint32_t kAcquisitionsThatFillACounter = 4200;  // more than a bin counts, in each pass
 
 // One pixel of the first column sees a detection at the same code in each acquisition, the others see none.

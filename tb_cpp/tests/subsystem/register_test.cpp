@@ -27,6 +27,9 @@ TEST_P(Subsystem, SaysWhatItIs) {
   EXPECT_EQ(field(readout, DTOF_READOUT_PRIOR_MASK, DTOF_READOUT_PRIOR_LSB), parameters.pool.prior ? 1U : 0U);
   EXPECT_EQ(field(readout, DTOF_READOUT_RAW_HISTOGRAM_MASK, DTOF_READOUT_RAW_HISTOGRAM_LSB),
             configuration.raw_histogram ? 1U : 0U);
+  EXPECT_EQ(field(readout, DTOF_READOUT_PARITY_MASK, DTOF_READOUT_PARITY_LSB),
+            configuration.parity ? 1U : 0U);
+  EXPECT_EQ(bench_.get(DTOF_SELF_TEST_SEED), (readout & DTOF_READOUT_SELF_TEST_MASK) != 0 ? 1U : 0U);
   EXPECT_EQ(bench_.get(DTOF_RAW_BINS),
             configuration.raw_histogram ? static_cast<std::uint32_t>(parameters.raw_bins()) : 0U);
   const std::uint32_t size = bench_.get(DTOF_SIZE);
@@ -71,6 +74,9 @@ TEST_P(Subsystem, SaysWhatItIs) {
   EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
   EXPECT_EQ(bench_.get(DTOF_OUTPUT), pool ? DTOF_OUTPUT_SMOOTH_MASK : 0U);
   EXPECT_EQ(bench_.get(DTOF_SHOT), 1U << DTOF_SHOT_UNIT_LSB) << "without a delay";
+  EXPECT_EQ(bench_.get(DTOF_GATE),
+            parameters.time_gate ? number(parameters.no_detection()) << DTOF_GATE_END_LSB : 0U)
+      << "all codes";
   EXPECT_EQ(bench_.get(DTOF_SHOT_SEED), 1U);
   EXPECT_EQ(bench_.get(DTOF_SHOT_STATE), 1U);
   const auto lines = static_cast<std::uint32_t>(bench_.acquisition_lines());
@@ -145,6 +151,7 @@ TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
   for (const std::uint32_t offset : offsets) {
     values.push_back(bench_.get(offset));
   }
+  const std::vector<std::uint32_t> behind_reset = values;
   int refused = 0;
   for (int round = 0; round < 400; ++round) {
     const std::size_t i = random() % offsets.size();
@@ -166,6 +173,10 @@ TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
     }
   }
   EXPECT_GT(refused, 20);
+  bench_.reset();
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    EXPECT_EQ(bench_.get(offsets[k]), behind_reset[k]) << "register " << offsets[k] << " behind a reset";
+  }
 }
 
 // What dtof_registers.h and the maps of driver/maps say of a value behind a reset.
