@@ -11,6 +11,7 @@ module parity_sram_properties #(
     parameter int PORTS = 2,
     parameter int DEPTH = 3,
     parameter int WIDTH = 3,
+    parameter int PARITIES = 1,
     localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
 ) (
     input logic                  clk_i,
@@ -37,7 +38,8 @@ module parity_sram_properties #(
       .PORTS (PORTS),
       .DEPTH (DEPTH),
       .WIDTH (WIDTH),
-      .PARITY(1)
+      .PARITY(1),
+      .PARITIES(PARITIES)
   ) u_dut (
       .clk_i       (clk_i),
       .rst_ni      (rst_n),

@@ -60,7 +60,9 @@ thesis/dtof_partitioned_histogram_column.sv
 thesis/dtof_coarse_histogram_column.sv
 pool/dtof_pool_column.sv
 pool/dtof_pool_pair.sv
+pool/dtof_pool_word_parity.sv
 pool/dtof_pool_quad.sv
+pool/dtof_pool_parity_store.sv
 thesis/dtof_array.sv
 pool/dtof_pool_pointer_array.sv
 subsystem/dtof_line_buffer.sv

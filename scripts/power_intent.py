@@ -13,7 +13,7 @@ from pathlib import Path
 from dtof_synth import program
 from upf import OPTIONS, Command, Design, IntentError, Scope, elaborate, execute, inside
 
-PRIOR_HOLDERS = "dtof_pool_quad"  # the module whose memories hold groups' words
+PRIOR_HOLDERS = ("dtof_pool_quad", "dtof_pool_parity_store")  # the modules whose memories hold groups' words and their parities
 PRIOR_FLAG = "g_prior.ended_q"    # of dtof_pool_pointer_array
 # These have no meaning while valid or an enable is low, so their clamp is free.
 QUALIFIED = {"result_tdata_o", "result_tlast_o", "read_addr_i", "write_addr_i", "write_data_i"}
@@ -284,9 +284,9 @@ class Checker:
         """Between frames with a prior, the quads' memories and the flag are kept, and nothing else."""
         for path, instance in self.design.scopes.items():
             if instance.module == "dtof_sram" and path.startswith(f"{scope}.".lstrip(".")):
-                holder = self.design.scopes[path.rsplit(".", 2)[0]].module  # around the dtof_parity_sram
+                holder = self.design.scopes[path.rsplit(".", 1)[0]].module
                 kept = self.is_on(self.supplies.get(self.domain_of(path), ""), state, scope)
-                if kept != (holder == PRIOR_HOLDERS):
+                if kept != (holder in PRIOR_HOLDERS):
                     self.say(f"memory {path} is {'kept' if kept else 'not kept'} in idle_with_prior")
         if retained != {inside(scope, PRIOR_FLAG)}:
             self.say(f"retention: {inside(scope, PRIOR_FLAG)} and no other register must be kept")

@@ -35,6 +35,8 @@ package dtof_pkg;
   // Latencies of modules in clocks, from port to port, for the sequencers that drive the modules.
   localparam int HISTOGRAM_WRITE_STAGE = 5;          // dtof_histogram_builder: a timestamp of T0 is written at T5
   localparam int POOL_PAIR_READ_CLOCKS = 2;          // dtof_pool_pair: from read_i to word_o, and to a write with it
+  localparam int POOL_SCRATCH_PARITIES = 2;          // parity bits of a word of dtof_pool_engine's scratch memory
+  localparam int POOL_PARITY_CLOCKS = 3;             // dtof_pool_word_parity: from an access of the SRAM to its parity
   localparam int POOL_LINE_CLOCKS = 1;               // dtof_pool_line: from the pairs' words to the engine's line_i
   localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // dtof_pool_engine: from line_i to the line that its commands use, except in decode
   localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // dtof_pool_engine: from read_scratch to the message

@@ -36,7 +36,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     parameter int CELL_SHIFT = 9,
-    parameter int PARITY = 0,  // 1: the scratch memory's words have a parity bit
+    parameter int PARITY = 0,  // 1: the scratch memory's words have parity bits
     parameter int SECOND_TARGET = 0,
     parameter int AMPLITUDE = 0,
     parameter int PRIOR = 0,
@@ -294,7 +294,8 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .PORTS(1),
       .DEPTH(PIXELS_PER_SRAM),
       .WIDTH(SCRATCH_WIDTH),
-      .PARITY(PARITY)
+      .PARITY(PARITY),
+      .PARITIES(dtof_pkg::POOL_SCRATCH_PARITIES)
   ) u_scratch_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),

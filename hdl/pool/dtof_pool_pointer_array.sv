@@ -89,7 +89,8 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH;
   localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE;
   localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2);
-  localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + (GROUPS + 1) / 2);
+  localparam int SRAM_WORDS = PIXEL_WORDS + (GROUPS + 1) / 2;
+  localparam int ADDR_WIDTH = dtof_pkg::index_width(SRAM_WORDS);
   localparam int STEPS = dtof_pkg::max_of((SRAM_NUM < ENGINE_COLUMNS) ? SRAM_NUM : ENGINE_COLUMNS, 1);  // columns of a full engine
   localparam int STEP_WIDTH = dtof_pkg::index_width(STEPS);
   localparam int STEP_PAIRS = (STEPS + 1) / 2;
@@ -154,7 +155,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   dtof_pool_controller #(
       .CLEAR_WORDS(PIXEL_WORDS),
-      .FIRST_CLEAR_WORDS((PARITY != 0) ? PIXEL_WORDS + (GROUPS + 1) / 2 : PIXEL_WORDS),
+      .FIRST_CLEAR_WORDS((PARITY != 0) ? SRAM_WORDS : PIXEL_WORDS),
       .ADDR_WIDTH (ADDR_WIDTH),
       .ACQ_WIDTH  (ACQ_WIDTH)
   ) u_controller (
@@ -526,6 +527,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic [ALL_PAIRS*LINE_WIDTH-1:0] pair_words;
   logic [QUADS*dtof_pkg::SRAM_CFG_WIDTH-1:0] quad_cfg;
   logic [ENGINES*dtof_pkg::SRAM_CFG_WIDTH-1:0] engine_cfg;
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] parity_cfg;
   integer i, j;
 
   // The start at '1 keeps an undriven side band from feeding back; Icarus would otherwise evaluate this block without end.
@@ -537,21 +539,47 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     for (j = 0; j < ENGINES; j = j + 1) begin
       sram_cfg_o = sram_cfg_o & engine_cfg[j*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
     end
+    sram_cfg_o = sram_cfg_o & parity_cfg;
   end
 
-  // Chains of damaged words: along the SRAMs, and along the engines.
-  logic [QUADS:0] quad_errors;
+  // Damaged words: of the SRAMs from dtof_pool_parity_store, of the engines along a chain.
+  logic [QUADS-1:0] quad_accessed, quad_parities;
+  logic sram_error;
   logic [ENGINES:0] engine_errors;
-  assign quad_errors[QUADS] = 1'b0;
   assign engine_errors[ENGINES] = 1'b0;
+
+  generate
+    if (PARITY != 0) begin : g_parity
+      dtof_pool_parity_store #(
+          .SRAMS(QUADS),
+          .DEPTH(SRAM_WORDS)
+      ) u_parity_store (
+          .clk_i     (clk_i),
+          .rst_ni    (rst_ni),
+          .sram_cfg_i(sram_cfg_i),
+          .sram_cfg_o(parity_cfg),
+          .read_i    (received.read),
+          .write_i   (received.write),
+          .address_i (received.address),
+          .accessed_i(quad_accessed),
+          .parity_i  (quad_parities),
+          .error_o   (sram_error)
+      );
+    end else begin : g_no_parity
+      assign parity_cfg = '1;
+      assign sram_error = 1'b0;
+      logic unused_parities;
+      assign unused_parities = ^{quad_accessed, quad_parities};
+    end
+  endgenerate
 
   dtof_event_link #(
       .PRESENT(PARITY)
   ) u_parity_head (
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
-      .event_i      (engine_errors[0]),
-      .next_column_i(quad_errors[0]),
+      .event_i      (sram_error),
+      .next_column_i(engine_errors[0]),
       .event_o      (parity_error_o)
   );
 
@@ -603,8 +631,8 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .rst_ni          (rst_ni),
           .sram_cfg_i      (sram_cfg_i),
           .sram_cfg_o      (quad_cfg[q*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
-          .next_parity_error_i(quad_errors[q+1]),
-          .parity_error_o  (quad_errors[q]),
+          .accessed_o      (quad_accessed[q]),
+          .parity_o        (quad_parities[q]),
           .timestamp_i     (tdc_timestamp_i[2*FIRST*NP+:QUAD_COLUMNS*NP]),
           .read_i          (received.read),
           .write_i         (received.write),

@@ -4,7 +4,8 @@
 //
 // An engine selects one pair and replaces a half of its part; the other pair's part is read and written back with it. The two pairs
 // may belong to two engines. These never select both pairs in a clock, because all engines work on the pair with the same number.
-// Latency: 1 clock from read_i to the pair's read_data_i.
+// With PARITY = 1 dtof_pool_word_parity gives the parity of each word that is read or written; dtof_pool_parity_store keeps and checks it.
+// Latency: 1 clock from read_i to the pair's read_data_i; POOL_PARITY_CLOCKS to accessed_o and parity_o.
 // Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
 
@@ -25,13 +26,15 @@ module dtof_pool_quad #(
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     parameter int CELL_SHIFT = 9,
-    parameter int PARITY = 0,  // 1: the SRAM's words have a parity bit
+    parameter int PARITY = 0,  // 1: accessed_o and parity_o are there, otherwise 0
     parameter int TIME_GATE = 0,
     parameter int PRIOR = 0,
     parameter int BROADCAST_STAGES = 2,  // clocks from the array's control to the columns; timestamps are delayed as much
     localparam int PAIRS = (COLUMNS + 1) / 2,
     localparam int HALF_WIDTH = dtof_pkg::pool_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                            POINTER_SHIFT, RIVAL_MOVES),
+    localparam int PIXEL_WIDTH = dtof_pkg::pool_pixel_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH, POINTER_SHIFT,
+                                                             RIVAL_MOVES),
     localparam int LINE_HALVES = dtof_pkg::pool_line_halves(HALF_WIDTH, COUNT_WIDTH),
     localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
     localparam int WORD_WIDTH = 2 * HALF_WIDTH,
@@ -50,9 +53,9 @@ module dtof_pool_quad #(
     input  logic                        read_i,
     input  logic                        write_i,
     input  logic [      ADDR_WIDTH-1:0] address_i,
-    // chain of damaged words, with PARITY = 1
-    input  logic                        next_parity_error_i,
-    output logic                        parity_error_o,
+    // to dtof_pool_parity_store, POOL_PARITY_CLOCKS after an access of the SRAM
+    output logic                        accessed_o,
+    output logic                        parity_o,
     // to all pairs, as in dtof_pool_pair
     input  logic [              NP-1:0] gate_begin_i,
     input  logic [              NP-1:0] gate_end_i,
@@ -93,37 +96,48 @@ module dtof_pool_quad #(
 
   logic [PAIRS*WORD_WIDTH-1:0] read_data, write_data;
   logic [PAIRS-1:0] pair_writes, upper_t2;
-  logic damaged, engine_load_q, nothing_upper, sweep_q, make_room_q;
+  logic read, write, engine_load_q, nothing_upper, sweep_q, make_room_q;
 
-  dtof_parity_sram #(
+  assign read = read_i && (!engine_i || select_i != '0) && !nothing_upper;
+  assign write = write_i && pair_writes != '0;
+
+  dtof_sram #(
       .PORTS(1),
       .DEPTH(DEPTH),
-      .WIDTH(PAIRS * WORD_WIDTH),
-      .PARITY(PARITY)
+      .WIDTH(PAIRS * WORD_WIDTH)
   ) u_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
       .cfg_i       (sram_cfg_i),
       .cfg_o       (sram_cfg_o),
-      .read_en_i   (read_i && (!engine_i || select_i != '0) && !nothing_upper),
+      .read_en_i   (read),
       .read_addr_i (address_i),
       .read_data_o (read_data),
-      .ignore_i    (1'b0),
-      .error_o     (damaged),
-      .write_en_i  (write_i && pair_writes != '0),
+      .write_en_i  (write),
       .write_addr_i(address_i),
       .write_data_i(write_data)
   );
 
-  dtof_event_link #(
-      .PRESENT(PARITY)
-  ) u_parity_link (
-      .clk_i        (clk_i),
-      .rst_ni       (rst_ni),
-      .event_i      (damaged),
-      .next_column_i(next_parity_error_i),
-      .event_o      (parity_error_o)
-  );
+  generate
+    if (PARITY != 0) begin : g_parity
+      dtof_pool_word_parity #(
+          .PAIRS     (PAIRS),
+          .WORD_WIDTH(WORD_WIDTH),
+          .LATE_WIDTH(HALF_WIDTH - PIXEL_WIDTH)
+      ) u_word_parity (
+          .clk_i       (clk_i),
+          .read_i      (read),
+          .read_data_i (read_data),
+          .write_i     (write),
+          .write_data_i(write_data),
+          .accessed_o  (accessed_o),
+          .parity_o    (parity_o)
+      );
+    end else begin : g_no_parity
+      assign accessed_o = 1'b0;
+      assign parity_o = 1'b0;
+    end
+  endgenerate
 
   // The second of two parts is read at T2 of a second row. If no choice falls into it, the read is suppressed, and the pair loads the
   // SRAM's unchanged output again. A sweep reads both parts.

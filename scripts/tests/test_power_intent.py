@@ -14,7 +14,7 @@ from upf import Design
 ROOT = Path(__file__).resolve().parents[2]
 INTENT = ROOT / "constraints" / "power_intent"
 SMALL = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 4}
-POOL_SMALL = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 8, "ENGINE_COLUMNS": 2, "PRIOR": 1}
+POOL_SMALL = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 8, "ENGINE_COLUMNS": 2, "PRIOR": 1, "PARITY": 1}
 MEMORIES = {"RASTER_ORDER": 1, "BUFFER_LINES": 9, "PARITY": 1, "SECOND_TARGET": 1}  # the subsystem's own, which are always on
 PRIOR, NO_PRIOR = {"dtof_prior": "1"}, {"dtof_prior": "0"}
 READOUTS = {name: int(number) for name, number in re.findall(
@@ -24,7 +24,7 @@ FAULTS = {  # file, text, replacement, with a prior, what is said
     "an output without isolation": ("array", "-applies_to outputs", "-applies_to inputs", True, "port g_pool.u_array.busy_o: 0 isolations"),
     "a memory's write enable without isolation": (
         "array", "{read_en_i read_addr_i write_en_i write_addr_i write_data_i}", "{read_en_i read_addr_i write_addr_i write_data_i}", True,
-        "u_sram.u_words.write_en_i: 0 isolations"),
+        "u_sram.write_en_i: 0 isolations"),
     "a wrong clamp": ("array", "-applies_to outputs -clamp_value 0", "-applies_to outputs -clamp_value 1", True, "busy_o: clamp 1, but 0 between frames"),
     "the side band clamped like the others": ("array", "{sram_cfg_o} -clamp_value 1", "{sram_cfg_o} -clamp_value 0", True, "clamp 0, but 1 between"),
     "a write enable that is clamped high": ("array", "$dtof_memory_inputs -clamp_value 0", "$dtof_memory_inputs -clamp_value 1", True,
@@ -49,20 +49,21 @@ FAULTS = {  # file, text, replacement, with a prior, what is said
                                                       "logic port g_array.u_array.isolate_i is not connected"),
     "a switch that is open when its control is high": ("array", "{closed vin {control}} -off_state {open {!control}}\n\n# The",
                                                        "{closed vin {!control}} -off_state {open {control}}\n\n# The", False, "-on_state does not follow"),
-    "memories that are renamed": ("array", "-pattern u_sram", "-pattern u_ram", True, "PD_MEMORY has no instance"),
+    "memories that are renamed": ("array", "{u_sram u_parities}", "{u_ram}", True, "PD_MEMORY has no instance"),
     "an instance that is not there": ("array", "PD_ARRAY -elements {.}", "PD_ARRAY -elements {. u_gone}", False, "no instance g_array.u_array.u_gone"),
     "an array that is not there": ("subsystem", "*u_array", "*u_matrix", False, "no instance"),
     "an instance in two domains": ("subsystem", "PD_SUBSYSTEM -elements {.}", "PD_SUBSYSTEM -elements {. g_array.u_array}", False,
                                   "u_array is in PD_SUBSYSTEM and in"),
     "a memory of the prior in two domains": ("array", "-elements {.} -supply {primary SS_ARRAY}",
-                                             "-elements {. {g_quad[0].u_quad/u_sram/u_words}} -supply {primary SS_ARRAY}", True,
-                                             "u_words is in g_pool.u_array.PD_ARRAY and in"),
+                                             "-elements {. {g_quad[0].u_quad/u_sram}} -supply {primary SS_ARRAY}", True,
+                                             "u_sram is in g_pool.u_array.PD_ARRAY and in"),
     "a subsystem without a domain": ("subsystem", "-elements {.} -supply {primary SS_ALWAYS}", "-elements {u_registers} -supply {primary SS_ALWAYS}", False,
                                      "instance u_frame_control is in no domain"),
-    "scratch memories are kept, those of the prior are not": ("array", "-pattern u_sram", "-pattern u_scratch_sram", True, "u_quad.u_sram.u_words is not kept"),
-    "more memories than those of the prior are kept": ("array", "-pattern u_sram", "-pattern u_*sram", True, "u_scratch_sram.u_words is kept"),
+    "scratch memories are kept, those of the prior are not": ("array", "{u_sram u_parities}", "{u_scratch_sram}", True, "u_quad.u_sram is not kept"),
+    "the parities of the prior are not kept": ("array", "{u_sram u_parities}", "{u_sram}", True, "u_parity_store.u_parities is not kept"),
+    "more memories than those of the prior are kept": ("array", "{u_sram u_parities}", "{u_*sram u_parities}", True, "u_scratch_sram.u_words is kept"),
     "the prior's state has the memories off": ("array", "SS_ARRAY == off && SS_MEMORY == on", "SS_ARRAY == off && SS_MEMORY == off", True,
-                                               "u_sram.u_words is not kept"),
+                                               "u_sram is not kept"),
     "a state of an unknown supply": ("array", "frame -logic_expr {SS_ARRAY == on &&", "frame -logic_expr {SS_LOGIC == on &&", True,
                                      "supply_set g_pool.u_array.SS_LOGIC is not declared"),
     "a state of a supply that has no such state": ("array", "frame -logic_expr {SS_ARRAY == on &&", "frame -logic_expr {SS_ARRAY == full &&", True,
@@ -109,10 +110,10 @@ class PowerIntent(unittest.TestCase):
         """What the checks compare with: names, directions, wiring, registers, values between frames."""
         array = self.pool.scopes["g_pool.u_array"]
         self.assertEqual((array.module, array.ports["clk_i"], array.ports["busy_o"]), ("dtof_pool_pointer_array", "INPUT", "OUTPUT"))
-        memory = self.pool.scopes["g_pool.u_array.g_quad[1].u_quad.u_sram.u_words"]
+        memory = self.pool.scopes["g_pool.u_array.g_quad[1].u_quad.u_sram"]
         self.assertEqual(memory.sources["clk_i"], array.sources["clk_i"])
         self.assertNotEqual(memory.sources["write_en_i"], array.sources["clk_i"])
-        self.assertIn("memory", self.pool.scopes["g_pool.u_array.g_quad[1].u_quad.u_sram.u_words.g_one_port.u_macro"].registers)
+        self.assertIn("memory", self.pool.scopes["g_pool.u_array.g_quad[1].u_quad.u_sram.g_one_port.u_macro"].registers)
         self.assertEqual(self.pool.idle["g_pool.u_array.busy_o"], "0")
         self.assertIn("x", self.pool.idle["g_pool.u_array.result_tdata_o"])
 
@@ -137,7 +138,7 @@ class PowerIntent(unittest.TestCase):
 
     def test_faults_of_the_rtl_are_found(self) -> None:
         """A memory's clock that comes from inside of the array; an output that is high between frames."""
-        for path, name, idle, said in (("g_pool.u_array.g_quad[0].u_quad.u_sram.u_words", "clk_i", "", "clk_i: 0 isolations"),
+        for path, name, idle, said in (("g_pool.u_array.g_quad[0].u_quad.u_sram", "clk_i", "", "clk_i: 0 isolations"),
                                        ("g_pool.u_array", "tdc_ready_o", "1", "tdc_ready_o: clamp 0, but 1 between frames")):
             scopes = self.pool.scopes
             if not idle:

@@ -4,6 +4,17 @@
 #include <stdexcept>
 
 namespace dtof {
+namespace {
+
+constexpr std::uint32_t kScratchParities = 4;  // dtof_pkg::POOL_SCRATCH_PARITIES
+constexpr std::string_view kParityStore = "u_parity_store.";
+
+bool contains(std::string_view name, std::string_view part) { return name.find(part) != std::string_view::npos; }
+
+/// A dtof_sram; the parities of its words are in kParityStore.
+bool in_sram_of_quad(std::string_view name) { return contains(name, "g_quad[") && contains(name, "u_sram."); }
+
+}  // namespace
 
 std::string_view part_title(CircuitPart part) {
   switch (part) {
@@ -28,11 +39,11 @@ std::string_view part_title(CircuitPart part) {
 }
 
 CircuitPart part_of_cell(std::string_view name) {
-  const auto in = [name](std::string_view instance) { return name.find(instance) != std::string_view::npos; };
-  if (in("u_parity_")) {
+  const auto in = [name](std::string_view instance) { return contains(name, instance); };
+  if (in("u_parity_") || in("u_word_parity.")) {
     return CircuitPart::kParityCheck;
   }
-  if (in("u_words.")) {  // the multiplexer of addresses of a single-port SRAM
+  if (in("u_words.") || in_sram_of_quad(name)) {  // the multiplexer of addresses of a single-port SRAM
     return CircuitPart::kMemoryControl;
   }
   if (in("_sram.") || in("u_sram.")) {  // dtof_parity_sram
@@ -51,12 +62,21 @@ CircuitPart part_of_cell(std::string_view name) {
 }
 
 Repeated repeated_of_cell(std::string_view name) {
-  if (name.find("g_engine[") != std::string_view::npos) {
+  if (contains(name, "g_engine[")) {
     return Repeated::kEngine;
   }
-  const bool in_column =
-      name.find("g_column[") != std::string_view::npos || name.find("g_quad[") != std::string_view::npos;
+  const bool in_column = contains(name, "g_column[") || contains(name, "g_quad[") || contains(name, kParityStore);
   return in_column ? Repeated::kColumn : Repeated::kArray;
+}
+
+std::uint32_t parity_bits_of_memory(std::string_view name, std::uint32_t width) {
+  if (contains(name, kParityStore)) {
+    return width;
+  }
+  if (in_sram_of_quad(name)) {
+    return 0;
+  }
+  return contains(name, "u_scratch_sram.") ? kScratchParities : 1;
 }
 
 }  // namespace dtof

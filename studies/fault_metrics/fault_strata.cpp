@@ -71,7 +71,7 @@ std::vector<FaultStratum> fault_strata(const GateNetlist& netlist) {
           {SiteKind::kReadData, i, bit});
     }
     for (std::uint32_t bit = 0; bit < memory.depth * memory.width(); ++bit) {
-      const bool parity = memory.has_parity && bit % memory.width() == memory.width() - 1;
+      const bool parity = bit % memory.width() >= memory.width() - memory.parity_bits;
       found[{parity ? CircuitPart::kParityBits : CircuitPart::kWords, Element::kBit, memory.repeated}]
           .push_back({SiteKind::kBit, i, bit});
     }

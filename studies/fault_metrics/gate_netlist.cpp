@@ -170,7 +170,6 @@ class NetlistReader {
     memory.path = cell_name;
     memory.repeated = repeated_of_cell(cell_name);
     memory.two_ports = type.find("dtof_sram_1r1w") != std::string::npos;
-    memory.has_parity = netlist_.parity;
     const Json& parameters = modules_.at(type).at("parameter_default_values");
     const auto parameter = [&](const char* key) {
       return static_cast<std::uint32_t>(std::stoul(parameters.at(key).get<std::string>(), nullptr, kBinary));
@@ -186,6 +185,7 @@ class NetlistReader {
       fail(fmt::format("memory '{}' has {} data bits, but its type has {}", cell_name, memory.width(),
                        parameter("WIDTH")));
     }
+    memory.parity_bits = netlist_.parity ? parity_bits_of_memory(cell_name, memory.width()) : 0;
     netlist_.memories.push_back(std::move(memory));
   }
 

@@ -47,7 +47,7 @@ struct Memory {
   std::string path;
   Repeated repeated = Repeated::kColumn;
   bool two_ports = true;
-  bool has_parity = false;  ///< the highest bit of a word is its parity
+  std::uint32_t parity_bits = 0;  ///< the highest bits of a word that are parities
   std::uint32_t depth = 0;
   Net read_enable = kLow;
   Net write_enable = kLow;

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from . import sram_model, wide_words
-from .configuration import engine_memories, memories
+from .configuration import counted_macros
 from .run import Result
 from .sram_model import Macro, Size
 
@@ -27,7 +27,7 @@ class Parts:
     column_logic: float
     column_sram: float
     engines: float  # logic
-    scratch_sram: float  # of the engines
+    scratch_sram: float  # of the engines and of the shared logic
     control: float  # shared logic without engines
     fan_out: float  # trees of buffers in front of columns and engines
 
@@ -40,17 +40,13 @@ class Parts:
 def parts(result: Result) -> Parts:
     engines = result.engines.area - result.engines.buffer_area
     return Parts(result.column.area * result.columns, result.sram_area * result.columns, engines,
-                 result.engine_sram_area, result.shared.area - result.shared.buffer_area - engines,
+                 result.engine_sram_area + result.shared_sram_area, result.shared.area - result.shared.buffer_area - engines,
                  result.shared.buffer_area)
 
 
 def _macros(result: Result) -> Iterable[tuple[int, Size]]:
     """(number in the array, size) for each kind of macro."""
-    configuration = result.configuration
-    for size in memories(configuration).values():
-        yield configuration.column_modules, size
-    for size in engine_memories(configuration).values():
-        yield configuration.engines, size
+    return counted_macros(result.configuration)
 
 
 def _macro_total(result: Result, area: Callable[[Macro], float]) -> float:

@@ -10,9 +10,8 @@ from pathlib import Path
 
 from .errors import given
 from . import batch, ihp130, technology
-from .configuration import Configuration, engine_memories, memories
+from .configuration import Configuration, counted_macros
 from .run import Result
-from .sram_model import Size
 
 AREA_LIMIT = 0.25
 SLACK_LIMIT_NS = 0.3
@@ -58,11 +57,7 @@ def _open_process(root: Path, pdk: Path, chosen: list[Configuration], everything
         return
     macros = ihp130.read(pdk / "ihp130" / "sram")
 
-    def sizes(item: Configuration) -> list[tuple[int, Size]]:
-        return [*((item.column_modules, size) for size in memories(item).values()),
-                *((item.engines, size) for size in engine_memories(item).values())]
-
-    fitting = [item for item in chosen if all(ihp130.choose(size, macros) for _, size in sizes(item))]
+    fitting = [item for item in chosen if all(ihp130.choose(size, macros) for _, size in counted_macros(item))]
     folder = root / "build" / "synth" / "ihp130"
     foreign = technology.prepare(root, folder, everything, typical, slow, lambda size: ihp130.macro(size, macros),
                                  IHP_MHZ)
@@ -73,7 +68,7 @@ def _open_process(root: Path, pdk: Path, chosen: list[Configuration], everything
     for item in fitting:
         result = results[item.name]
         logic = _logic_mm2(result)
-        copies = [(number, size, *given(ihp130.choose(size, macros), item.name)) for number, size in sizes(item)]
+        copies = [(number, size, *given(ihp130.choose(size, macros), item.name)) for number, size in counted_macros(item)]
         sram = sum(number * count * macro.area for number, _, count, macro in copies) / 1e6
         used = ", ".join(f"{size.words}x{size.bits}: {count} of {macro.size.words}x{macro.size.bits}"
                          for _, size, count, macro in copies)

@@ -11,6 +11,9 @@ from . import readouts
 from .errors import FlowError
 from .sram_model import Size
 
+SCRATCH_PARITIES = 2  # dtof_pkg::POOL_SCRATCH_PARITIES
+
+
 @dataclass(frozen=True)
 class Configuration:
     """One row of the table: a read-out and all its RTL parameters."""
@@ -87,7 +90,7 @@ def memories(configuration: Configuration) -> dict[str, Size]:
         groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
         words = groups * (configuration["GROUP_SIZE"] // 2) + -(-groups // 2)
         pairs = -(-configuration.module_columns // 2)
-        return {"pixels and groups": Size(1, words, pairs * 2 * pool_word_width(configuration) + configuration["PARITY"])}
+        return {"pixels and groups": Size(1, words, pairs * 2 * pool_word_width(configuration))}
     sizes = {name: Size(*(readouts.evaluate(part, configuration.parameters) for part in size))
              for name, size in configuration.described.memories.items()}
     return {name: size for name, size in sizes.items() if size.words > 0}
@@ -115,12 +118,33 @@ def engine_memories(configuration: Configuration) -> dict[str, Size]:
     # Messages of choose with cell and offset chosen in the column to the left, or of decide with the position there.
     choose = 4 * configuration["LABELS"] + 7 + configuration["OFFSET_BITS"]
     decide = 2 * 2 + 16
-    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(choose, decide) + configuration["PARITY"])}
+    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(choose, decide) + SCRATCH_PARITIES * configuration["PARITY"])}
+
+
+def shared_memories(configuration: Configuration) -> dict[str, Size]:
+    """The SRAMs of the shared logic: the parities of all words that the columns' SRAMs of a pool read-out hold."""
+    if not configuration.is_pool or configuration["PARITY"] == 0:
+        return {}
+    (words,) = memories(configuration).values()
+    return {"parities": Size(1, words.words, configuration.column_modules)}
+
+
+def counted_macros(configuration: Configuration) -> list[tuple[int, Size]]:
+    """(number in the array, size) for each kind of SRAM."""
+    return [*((configuration.column_modules, size) for size in memories(configuration).values()),
+            *((configuration.engines, size) for size in engine_memories(configuration).values()),
+            *((1, size) for size in shared_memories(configuration).values())]
+
+
+def macro_sizes(configuration: Configuration) -> list[Size]:
+    return [size for _, size in counted_macros(configuration)]
 
 
 def bits_per_pixel(configuration: Configuration) -> float:
+    """Bits of the SRAMs for a pixel, without those of the engines."""
     pixels = configuration["PIXELS_PER_SRAM"] * configuration.module_columns
-    return sum(size.capacity for size in memories(configuration).values()) / pixels
+    shared = sum(size.capacity for size in shared_memories(configuration).values()) / configuration.pixels
+    return sum(size.capacity for size in memories(configuration).values()) / pixels + shared
 
 
 def load(path: Path) -> dict[str, Configuration]:

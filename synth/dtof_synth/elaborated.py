@@ -24,7 +24,7 @@ from . import configuration, growth, library, readouts, run, scene_power, signal
 from . import technology as technologies
 from .canonical import canonical
 from .cli import ROOT, all_configurations
-from .configuration import Configuration, engine_memories, memories
+from .configuration import Configuration, engine_memories, macro_sizes, memories, shared_memories
 from .errors import FlowError
 
 BUILD = ROOT / "build" / "elaborated"
@@ -61,7 +61,7 @@ def elaborate(item: Configuration, root: Path, folder: Path, whole_subsystem: bo
     folder.mkdir(parents=True, exist_ok=True)
     liberty = folder / "slow.lib"
     liberty.write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
-    black_boxes, *technology_files = sram_kit.write_rtl_views(folder, [*memories(item).values(), *engine_memories(item).values()])
+    black_boxes, *technology_files = sram_kit.write_rtl_views(folder, macro_sizes(item))
     written = folder / "elaborated.il"
     script = root / "synth" / "yosys" / "elaborate.tcl"
     settings: dict[str, tools.Setting] = {
@@ -107,7 +107,8 @@ def described(item: Configuration, parameters: Iterable[str]) -> str:
         "title": item.title, "variant_of": item.variant_of, "thesis_mm2": item.thesis_mm2, "note": item.note, "readout": readout,
         "parameters": {name: item[name] for name in parameters if name in item.parameters},
         "memories": {name: size.name for name, size in memories(item).items()},
-        "engine_memories": {name: size.name for name, size in engine_memories(item).items()}}, ensure_ascii=False)
+        "engine_memories": {name: size.name for name, size in engine_memories(item).items()},
+        "shared_memories": {name: size.name for name, size in shared_memories(item).items()}}, ensure_ascii=False)
 
 
 def lines(report: str, root: Path, folder: Path, workers: int) -> list[str]:

@@ -23,7 +23,7 @@ import numpy as np
 
 from . import configuration as configurations
 from . import growth, sram_model
-from .configuration import Configuration, engine_memories, memories
+from .configuration import Configuration, counted_macros, engine_memories, memories, shared_memories
 from .errors import FlowError, given
 
 POINTS = "models/dtof/design/estimate_points.toml"
@@ -77,9 +77,7 @@ def _macro_area(sizes: dict) -> float:
 
 
 def _macro_leakage_mw(configuration: Configuration) -> float:
-    one = sum(sram_model.macro(size).leakage for size in memories(configuration).values())
-    engine = sum(sram_model.macro(size).leakage for size in engine_memories(configuration).values())
-    return (one * configuration.column_modules + engine * configuration.engines) * 1e-3
+    return sum(number * sram_model.macro(size).leakage for number, size in counted_macros(configuration)) * 1e-3
 
 
 def _access_pj(configuration: Configuration) -> float:
@@ -123,6 +121,7 @@ class Model:
 
     def total_mm2(self, item: Configuration) -> float:
         shared = self.control_um2(item) + item.engines * (self._reference(item).engine + _macro_area(engine_memories(item)))
+        shared += _macro_area(shared_memories(item))
         srams = _macro_area(memories(item)) / item.module_columns
         return ((self.column_um2(item) + srams) * item["SRAM_NUM"] + shared) * 1e-6
 

@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 from . import configuration, sram_kit, sram_model
-from .configuration import Configuration, engine_memories, memories
+from .configuration import Configuration, macro_sizes
 from .errors import FlowError
 from .run import TARGET_MHZ, rtl_files
 from .sram_model import Macro
@@ -110,7 +110,7 @@ def constraints(root_from_here: str = "../../..") -> str:
 def write(item: Configuration, folder: Path, root: Path) -> list[Path]:
     """Writes all files of one configuration; returns their paths."""
     folder.mkdir(parents=True, exist_ok=True)
-    sizes = sorted({*memories(item).values(), *engine_memories(item).values()})
+    sizes = sorted(set(macro_sizes(item)))
     macros = [sram_model.macro(size) for size in sizes]
     texts = {"config.mk": config(item, sizes, root), "constraint.sdc": constraints()}
     texts |= {f"sram40_{corner.name}.lib": sram_kit.liberty(macros, corner) for corner in (TYPICAL, SLOW)}

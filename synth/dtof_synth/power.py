@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from .errors import found_in
 from . import sram_model
-from .configuration import Configuration, engine_memories, memories
+from .configuration import Configuration, engine_memories, memories, shared_memories
 from .library import Library
 from .netlist import TREE_LOAD_SHARE
 
@@ -111,11 +111,16 @@ def access_rates(configuration: Configuration) -> dict[str, tuple[float, float]]
 def sram_mw(configuration: Configuration, mhz: float) -> float:
     """Power of all SRAMs of all columns, mW."""
     rates = access_rates(configuration)
-    total = 0.0
+    total = shared = 0.0
     for use, size in memories(configuration).items():
         macro = sram_model.macro(size)
         reads, writes = rates[use]
         dynamic = (reads * macro.read_energy + writes * macro.write_energy) * mhz * 1e-3
         total += dynamic + macro.leakage * 1e-3
+    # Those of the shared logic are read and written with those of the columns, those of the engines rest.
+    for size in shared_memories(configuration).values():
+        macro = sram_model.macro(size)
+        reads, writes = next(iter(rates.values()))
+        shared += (reads * macro.read_energy + writes * macro.write_energy) * mhz * 1e-3 + macro.leakage * 1e-3
     idle = sum(sram_model.macro(size).leakage for size in engine_memories(configuration).values())
-    return total * configuration.column_modules + configuration.engines * idle * 1e-3
+    return total * configuration.column_modules + shared + configuration.engines * idle * 1e-3

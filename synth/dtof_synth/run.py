@@ -14,7 +14,7 @@ from pathlib import Path
 from . import (clock_gating, endpoints, floorplan, loads, netlist, power, report_inputs, same_logic, spef, sram_kit, sram_model, stand_in,
                standard_cells, timing, tools, verilog)
 from .canonical import canonical
-from .configuration import Configuration, bits_per_pixel, engine_memories, memories
+from .configuration import Configuration, bits_per_pixel, counted_macros, engine_memories, macro_sizes, memories, shared_memories
 from .errors import FlowError, given
 from .library import Library
 from .netlist import Counts
@@ -106,12 +106,14 @@ class Result:
     fullest_load: loads.Load | None = None  # the nearest to its limit
     sram_area: float = field(init=False)  # of a column
     engine_sram_area: float = field(init=False)  # of all engines
+    shared_sram_area: float = field(init=False)  # beside columns and engines
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "sram_area",
                            _area(memories(self.configuration)) / self.configuration.module_columns)
         object.__setattr__(self, "engine_sram_area",
                            self.configuration.engines * _area(engine_memories(self.configuration)))
+        object.__setattr__(self, "shared_sram_area", _area(shared_memories(self.configuration)))
 
     @property
     def columns(self) -> int:
@@ -124,7 +126,7 @@ class Result:
     @property
     def total_mm2(self) -> float:
         """Area of columns, shared logic and engines, mm2. The clock tree is an estimate and reported separately."""
-        return ((self.column.area + self.sram_area) * self.columns + self.shared.area + self.engine_sram_area) / 1e6
+        return ((self.column.area + self.sram_area) * self.columns + self.shared.area + self.engine_sram_area + self.shared_sram_area) / 1e6
 
     @property
     def bits_per_pixel(self) -> float:
@@ -163,7 +165,7 @@ def elaborate(configuration: Configuration, technology: Technology, folder: Path
     # Only this configuration's macros: Yosys numbers what it reads, and mapping depends on the numbers by a few
     # per cent, so another configuration's size would change this one's area.
     black_boxes, *technology_files = sram_kit.write_rtl_views(
-        folder, [*memories(configuration).values(), *engine_memories(configuration).values()])
+        folder, macro_sizes(configuration))
     tools.write_settings(settings, {
         "scripts": scripts, "top": configuration.top,
         "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "common",
@@ -193,7 +195,7 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     tools.run_yosys(scripts / "map.tcl", settings, folder / "map.log", configuration.name)
     design = json.loads((folder / "mapped.json").read_text(encoding="utf-8"))
     netlist.rename_parts(design)
-    macros = {size.name for size in [*memories(configuration).values(), *engine_memories(configuration).values()]}
+    macros = {size.name for size in macro_sizes(configuration)}
     foreign = netlist.foreign_cells(design, library, macros)
     if foreign:
         raise FlowError(f"{configuration.name}: unmapped cells in the netlist: {', '.join(sorted(foreign))}")
@@ -492,7 +494,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
     (folder / FINISHED_COLUMN).write_text(json.dumps(timed.finished_column()), encoding="utf-8")
     column_module, shared, engines = timed.counts()
     modules = configuration.column_modules
-    macros = modules * len(memories(configuration)) + configuration.engines * len(engine_memories(configuration))
+    macros = sum(number for number, _ in counted_macros(configuration))
     tree = power.clock_tree(
         modules * column_module.clock_sinks + shared.clock_sinks + macros,
         modules * column_module.clock_ff + shared.clock_ff + macros * sram_kit.CLOCK_PIN_FF, technology.slow)

@@ -23,7 +23,7 @@ from pathlib import Path
 from . import activity, floorplan, liberty, netlist, simulation, sram_kit, sram_model, tools, wide_words
 from . import power as power_model
 from .activity import OTHER, STREAMING, Activity
-from .configuration import Configuration, engine_memories, memories
+from .configuration import Configuration, counted_macros, memories
 from .errors import FlowError, given
 from .library import Library
 from .run import FINISHED_COLUMN, TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells
@@ -205,9 +205,7 @@ def power(configuration: Configuration, light: str, result: Result, run_folder: 
     column_leak = _leakage_nw(leakage, netlist.modules(design)[column.module]) * modules
     leak_mw = (column_leak + _leakage_nw(leakage, top) * control_scale
                + (_leakage_nw(leakage, netlist.modules(design)[engine.module]) * engine_scale if engine else 0)) * 1e-6
-    leak_mw += modules * sum(sram_model.macro(size).leakage for size in memories(configuration).values()) * 1e-3
-    leak_mw += configuration.engines * sum(sram_model.macro(size).leakage
-                                           for size in engine_memories(configuration).values()) * 1e-3
+    leak_mw += sum(number * sram_model.macro(size).leakage for number, size in counted_macros(configuration)) * 1e-3
     clock_fj = (modules * result.column_module.clock_energy_fj + result.shared.clock_energy_fj
                 + result.clock_tree.load_ff * library.voltage**2)
     clock_mw = clock_fj * TARGET_MHZ * 1e-6

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from . import cell_models, floorplan, liberty, netlist, sram_kit, tools
-from .configuration import Configuration, engine_memories, memories
+from .configuration import Configuration, macro_sizes
 from .errors import FlowError
 from .run import Technology, efforts, elaborate, map_to_cells, rtl_files
 
@@ -123,8 +123,7 @@ def write_simulation_netlist(design: dict, configuration: Configuration, technol
                     configuration.name)
     cells, macros = folder / "cells.v", folder / "macros.v"
     cells.write_text(cell_models.verilog(liberty.read(technology.slow.path), kinds), encoding="utf-8")
-    macros.write_text(sram_kit.behavioural_models([*memories(configuration).values(),
-                                                   *engine_memories(configuration).values()]), encoding="utf-8")
+    macros.write_text(sram_kit.behavioural_models(macro_sizes(configuration)), encoding="utf-8")
     return written, cells, macros
 
 

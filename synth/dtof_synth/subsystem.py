@@ -22,7 +22,7 @@ from pathlib import Path
 from . import array_stand_in, clock_gating, endpoints, floorplan, loads, netlist, run, spef, sram_kit, subsystem_power, timing, tools, verilog
 from .array_stand_in import MODES, Ports
 from .canonical import canonical
-from .configuration import Configuration, engine_memories, memories
+from .configuration import Configuration, macro_sizes
 from .errors import FlowError, given
 from .library import Library
 from .netlist import Counts
@@ -139,7 +139,7 @@ def generic(configuration: Configuration, technology: Technology, folder: Path) 
     folder.mkdir(parents=True, exist_ok=True)
     root = technology.root
     black_boxes, *technology_files = sram_kit.write_rtl_views(
-        folder, [*memories(configuration).values(), *engine_memories(configuration).values()])
+        folder, macro_sizes(configuration))
     gate = folder / f"{CLOCK_GATE}.sv"
     gate.write_text(clock_gate(technology.slow), encoding="utf-8")
     elaborated = folder / "elaborated.il"

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from . import library, sram_kit, sram_model, standard_cells
-from .configuration import Configuration, engine_memories, memories
+from .configuration import Configuration, macro_sizes
 from .errors import FlowError
 from .files import write_if_changed
 from .run import TARGET_MHZ, Technology
@@ -21,7 +21,7 @@ def needed_sizes(configurations: list[Configuration]) -> dict[Size, list[str]]:
     """Every SRAM size in use and the configurations that use it."""
     uses: dict[Size, list[str]] = {}
     for configuration in configurations:
-        for size in [*memories(configuration).values(), *engine_memories(configuration).values()]:
+        for size in macro_sizes(configuration):
             uses.setdefault(size, []).append(configuration.name)
     return uses
 

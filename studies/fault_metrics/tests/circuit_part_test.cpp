@@ -15,7 +15,10 @@ TEST(CircuitPart, FollowsTheInstancesOfTheName) {
   EXPECT_EQ(
       part("$flatten\\g_column[0].x.u_column.\\u_pointer_builder.\\u_word_builder.\\u_word_sram.$abc$1"),
       CircuitPart::kParityCheck);
-  EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\u_sram.\\u_words.$abc$1"), CircuitPart::kMemoryControl);
+  EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\u_sram.$abc$1"), CircuitPart::kMemoryControl);
+  EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\g_parity.u_word_parity.$abc$1"), CircuitPart::kParityCheck);
+  EXPECT_EQ(part("$flatten\\g_parity.u_parity_store.$abc$1"), CircuitPart::kParityCheck);
+  EXPECT_EQ(part("$flatten\\g_engine[0].u_engine.\\u_scratch_sram.\\u_words.$abc$1"), CircuitPart::kMemoryControl);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\g_pair[1].u_pair.$abc$1"), CircuitPart::kColumns);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.$abc$1"), CircuitPart::kMemoryControl);
   EXPECT_EQ(part("$flatten\\g_engine[0].u_engine.\\u_choose.$abc$1"), CircuitPart::kEngines);
@@ -31,7 +34,15 @@ TEST(CircuitPart, IsRepeatedWithItsColumnOrEngine) {
   EXPECT_EQ(repeated_of_cell("$flatten\\g_column[0].u_column.\\u_result_register.$abc$1"), Repeated::kColumn);
   EXPECT_EQ(repeated_of_cell("$flatten\\g_quad[0].u_quad.$abc$1"), Repeated::kColumn);
   EXPECT_EQ(repeated_of_cell("$flatten\\g_engine[0].u_engine.$abc$1"), Repeated::kEngine);
+  EXPECT_EQ(repeated_of_cell("$flatten\\g_parity.u_parity_store.$abc$1"), Repeated::kColumn);
   EXPECT_EQ(repeated_of_cell("$flatten\\u_controller.$abc$1"), Repeated::kArray);
+}
+
+TEST(CircuitPart, KnowsWhichBitsOfAMemoryAreParities) {
+  EXPECT_EQ(parity_bits_of_memory("g_column[0].x.u_column.u_word_builder.u_word_sram.u_words.u_macro", 15), 1U);
+  EXPECT_EQ(parity_bits_of_memory("g_engine[0].u_engine.u_scratch_sram.u_words.u_macro", 37), 4U);
+  EXPECT_EQ(parity_bits_of_memory("g_quad[0].u_quad.u_sram.g_one_port.u_macro", 232), 0U);
+  EXPECT_EQ(parity_bits_of_memory("g_parity.u_parity_store.u_parities.g_one_port.u_macro", 50), 50U);
 }
 
 }  // namespace

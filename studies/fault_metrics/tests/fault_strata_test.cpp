@@ -19,7 +19,7 @@ GateNetlist column() {
   netlist.flip_flops.resize(2);
   Memory memory;
   memory.depth = 5;
-  memory.has_parity = true;
+  memory.parity_bits = 1;
   memory.read_data = {2, 3, 4};
   netlist.memories.push_back(memory);
   return netlist;

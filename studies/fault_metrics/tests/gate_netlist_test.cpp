@@ -54,7 +54,8 @@ TEST(GateNetlist, ReadsWhatYosysWrites) {
   ASSERT_EQ(netlist.memories.size(), 1U);
   const Memory& memory = netlist.memories.front();
   EXPECT_EQ(memory.depth, 5U);
-  EXPECT_TRUE(memory.two_ports && memory.has_parity);
+  EXPECT_TRUE(memory.two_ports);
+  EXPECT_EQ(memory.parity_bits, 1U);
   EXPECT_EQ(memory.write_data[0], netlist.port("a_i")[0]) << "the side band runs through the memory";
 }
 
