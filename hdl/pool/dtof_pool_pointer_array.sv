@@ -735,13 +735,34 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   endgenerate
 
+  // In a wide array the results need registers on their way, too: no wire may be longer than those to the engines.
+
+  localparam int RESULT_STAGES = (BROADCAST_STAGES > 2) ? BROADCAST_STAGES - 2 : 0;
+  logic [ENGINES*SENT_RESULT_WIDTH-1:0] results_there;
+
+  generate
+    if (RESULT_STAGES > 0) begin : g_result_stages
+      dtof_broadcast #(
+          .WIDTH (ENGINES * SENT_RESULT_WIDTH),
+          .STAGES(RESULT_STAGES)
+      ) u_results (
+          .clk_i (clk_i),
+          .rst_ni(rst_ni),
+          .from_i(results),
+          .to_o  (results_there)
+      );
+    end else begin : g_no_result_stages
+      assign results_there = '0;
+    end
+  endgenerate
+
   dtof_pool_result_output #(
       .ENGINES       (ENGINES),
       .ENGINE_COLUMNS(STEPS),
       .SRAM_NUM      (SRAM_NUM),
       .ROW_WIDTH     (ROW_WIDTH),
       .RESULT_WIDTH  (SENT_RESULT_WIDTH),
-      .LATENCY       (BROADCAST_STAGES)
+      .LATENCY       (BROADCAST_STAGES + RESULT_STAGES)
   ) u_result_output (
       .clk_i    (clk_i),
       .rst_ni   (rst_ni),
@@ -749,7 +770,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .column_i (send_column),
       .row_i    (send_row),
       .last_i   (send_last),
-      .results_i(results),
+      .results_i((RESULT_STAGES > 0) ? results_there : results),
       .waits_o  (send_waits),
       .busy_o   (send_busy),
       .tvalid_o (result_tvalid_o),
