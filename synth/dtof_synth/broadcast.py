@@ -11,7 +11,7 @@ sequencer's.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 
 from .netlist import Module
 
@@ -58,11 +58,12 @@ class Registers:
             row += following
         return row
 
-    def results(self, blocks: Mapping[int, float], centre_um: float, stages: int) -> dict[str, float]:
-        """Places of the registers that take a block's output, evenly over the way to the middle. `blocks`: places by the blocks' nets."""
+    def results(self, blocks: Mapping[int, float], placed: Container[str], centre_um: float, stages: int) -> dict[str, float]:
+        """Places of the registers that take a block's output, evenly over the way to the middle. `blocks`: places by the blocks' nets;
+        `placed`: registers that have a place."""
         found: dict[str, float] = {}
         for net, start in blocks.items():
             for register in self.behind.get(net, []):
-                row = self._row(register, stages - 2)
+                row = self._row(register, stages - 2) if register not in placed else []
                 found |= {name: start + (centre_um - start) * number / (len(row) + 1) for number, name in enumerate(row, 1)}
         return found

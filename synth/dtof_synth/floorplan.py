@@ -225,7 +225,7 @@ def spread(plan: Floorplan, library: Library, pin_load: Callable[[str, str], flo
         rows = Registers(array, set(library.sequential))
         numbers = rows.numbers(copied, stages)
         outputs = {net: plan[name] for net, name in cell_of.items() if name in plan.blocks}
-        plan.places |= rows.results(outputs, plan.centre_um, stages)
+        plan.places |= rows.results(outputs, plan.places, plan.centre_um, stages)
     moved = copied | numbers.keys()
     order: list[int] = []
 

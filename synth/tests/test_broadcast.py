@@ -43,12 +43,15 @@ class Rows(unittest.TestCase):
 
     def test_results_stand_evenly_on_the_way_back(self) -> None:
         found = rows(r1=(50, 51), r2=(51, 52), kept=(52, 53), other=(60, 61), twice=(60, 62))
-        self.assertEqual(found.results({50: 0.0, 60: 300.0}, 150.0, 4), {"r1": 50.0, "r2": 100.0, "other": 225.0, "twice": 225.0})
-        self.assertEqual(found.results({50: 0.0}, 150.0, 3), {"r1": 75.0})
+        self.assertEqual(found.results({50: 0.0, 60: 300.0}, (), 150.0, 4), {"r1": 50.0, "r2": 100.0, "other": 225.0, "twice": 225.0})
+        self.assertEqual(found.results({50: 0.0}, (), 150.0, 3), {"r1": 75.0})
+
+    def test_a_register_that_has_a_place_keeps_it(self) -> None:
+        self.assertEqual(rows(line=(50, 51), r1=(60, 61)).results({50: 0.0, 60: 0.0}, {"line": 0.0}, 100.0, 3), {"r1": 50.0})
 
     def test_a_row_of_results_ends_where_it_forks_and_where_it_closes(self) -> None:
-        self.assertEqual(rows(r1=(50, 51), r2=(51, 52), r3=(51, 53)).results({50: 0.0}, 100.0, 5), {"r1": 50.0})
-        self.assertEqual(rows(r1=(50, 51), r2=(51, 50)).results({50: 0.0}, 90.0, 8), {"r1": 30.0, "r2": 60.0})
+        self.assertEqual(rows(r1=(50, 51), r2=(51, 52), r3=(51, 53)).results({50: 0.0}, (), 100.0, 5), {"r1": 50.0})
+        self.assertEqual(rows(r1=(50, 51), r2=(51, 50)).results({50: 0.0}, (), 90.0, 8), {"r1": 30.0, "r2": 60.0})
 
 
 class Ways(WithLibrary):
@@ -115,10 +118,10 @@ class Ways(WithLibrary):
 
     def test_two_stages_stand_as_if_nobody_counted_them(self) -> None:
         found = []
-        for settings in ({}, {"stages": 2}):
+        for stages in (None, 2):
             design = array(200)
             plan = Floorplan(design, 1)
-            floorplan.spread(plan, self.library, self.pin_load, {2}, **settings)
+            floorplan.spread(plan, self.library, self.pin_load, {2}, **({} if stages is None else {"stages": stages}))
             found.append((design, plan.places))
         self.assertEqual(found[0], found[1])
 
