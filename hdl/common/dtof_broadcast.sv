@@ -3,8 +3,8 @@
 //
 // The array is several millimetres wide and the shared logic is in its middle. The first register belongs beside the logic that
 // drives it, and the last register beside the columns. A layout (and the flow of `make synth`) gives each group of neighbouring
-// columns its own copy of the last register. Timestamps come from above their columns and are delayed there by the same number of
-// clocks (dtof_timestamp_input.sv), so that timestamps and commands stay aligned.
+// columns its own copy of the last register, and spreads copies of the registers before it over the way. Timestamps come from above their
+// columns and are delayed there by the same number of clocks (dtof_timestamp_input.sv), so that timestamps and commands stay aligned.
 //
 // Latency: STAGES clocks.
 // Cost: STAGES flip-flops per bit.

@@ -103,6 +103,8 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
   localparam int PART_WIDTH = dtof_pkg::pool_part_width(LINE_HALVES);
   localparam int LAST_COLUMNS = SRAM_NUM - (ENGINES - 1) * STEPS;  // columns of the last engine
   localparam int LAST_PAIRS = (LAST_COLUMNS + 1) / 2;
+  // Registers on the way of results and parities to the shared logic. In a wide array no wire may be longer than those to the engines.
+  localparam int RESULT_STAGES = (BROADCAST_STAGES > 2) ? BROADCAST_STAGES - 2 : 0;
 
   `DTOF_REQUIRE(g_illegal_parity, PARITY == 0 || PARITY == 1, "dtof_pool_pointer_array: PARITY must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 16, "dtof_pool_pointer_array: NP must be 8 to 16")
@@ -550,9 +552,26 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   generate
     if (PARITY != 0) begin : g_parity
+      logic [2*QUADS-1:0] parities_there;
+
+      if (RESULT_STAGES > 0) begin : g_stages
+        dtof_broadcast #(
+            .WIDTH (2 * QUADS),
+            .STAGES(RESULT_STAGES)
+        ) u_parity_stages (
+            .clk_i (clk_i),
+            .rst_ni(rst_ni),
+            .from_i({quad_accessed, quad_parities}),
+            .to_o  (parities_there)
+        );
+      end else begin : g_no_stages
+        assign parities_there = {quad_accessed, quad_parities};
+      end
+
       dtof_pool_parity_store #(
-          .SRAMS(QUADS),
-          .DEPTH(SRAM_WORDS)
+          .SRAMS     (QUADS),
+          .DEPTH     (SRAM_WORDS),
+          .WAY_CLOCKS(RESULT_STAGES)
       ) u_parity_store (
           .clk_i     (clk_i),
           .rst_ni    (rst_ni),
@@ -561,8 +580,8 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .read_i    (received.read),
           .write_i   (received.write),
           .address_i (received.address),
-          .accessed_i(quad_accessed),
-          .parity_i  (quad_parities),
+          .accessed_i(parities_there[2*QUADS-1:QUADS]),
+          .parity_i  (parities_there[QUADS-1:0]),
           .error_o   (sram_error)
       );
     end else begin : g_no_parity
@@ -763,13 +782,33 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   endgenerate
 
+  // Results on their way to the shared logic.
+
+  logic [ENGINES*SENT_RESULT_WIDTH-1:0] results_there;
+
+  generate
+    if (RESULT_STAGES > 0) begin : g_result_stages
+      dtof_broadcast #(
+          .WIDTH (ENGINES * SENT_RESULT_WIDTH),
+          .STAGES(RESULT_STAGES)
+      ) u_results (
+          .clk_i (clk_i),
+          .rst_ni(rst_ni),
+          .from_i(results),
+          .to_o  (results_there)
+      );
+    end else begin : g_no_result_stages
+      assign results_there = '0;
+    end
+  endgenerate
+
   dtof_pool_result_output #(
       .ENGINES       (ENGINES),
       .ENGINE_COLUMNS(STEPS),
       .SRAM_NUM      (SRAM_NUM),
       .ROW_WIDTH     (ROW_WIDTH),
       .RESULT_WIDTH  (SENT_RESULT_WIDTH),
-      .LATENCY       (BROADCAST_STAGES)
+      .LATENCY       (BROADCAST_STAGES + RESULT_STAGES)
   ) u_result_output (
       .clk_i    (clk_i),
       .rst_ni   (rst_ni),
@@ -777,7 +816,7 @@ module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .column_i (send_column),
       .row_i    (send_row),
       .last_i   (send_last),
-      .results_i(results),
+      .results_i((RESULT_STAGES > 0) ? results_there : results),
       .waits_o  (send_waits),
       .busy_o   (send_busy),
       .tvalid_o (result_tvalid_o),

@@ -4,6 +4,8 @@
 // Commands and results between here and the engines take LATENCY clocks, so the results of send_i arrive LATENCY clocks later. A set
 // of results, one per engine, is loaded in parallel and shifted out, engine 0 first. The last engine may have fewer columns; it then has
 // no beat for the missing ones. Two more sets fit behind the set that is being sent, so that the engines decide the next pixels meanwhile.
+// The sets on their way count, too: with LATENCY above 8 the engines of a narrow array wait for some clocks. In a wide array the output is
+// slower than the engines anyway.
 // tdata = {column, row, code, fraction, confidence}. tvalid does not fall before tready.
 // Latency: LATENCY + 1 clocks from send_i to the first beat if no other set is being sent; then one beat per clock while tready is high.
 // Cost: three results per engine, counters, per array.

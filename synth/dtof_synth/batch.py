@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs many configurations on all cores; results are reused until an input changes."""
+"""Runs many configurations on all cores. A result is reused until one of its own inputs changes (run_inputs.py), so all configurations are
+elaborated first."""
 
 from __future__ import annotations
 
@@ -9,11 +10,15 @@ import json
 import pickle
 from collections.abc import Callable, Iterable
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from . import run_inputs
 from .configuration import Configuration
-from .run import BOTH_CORNERS, Result, Technology, input_digest, run
+from .run import BOTH_CORNERS, Result, Technology, run
+
+
+NETLISTS = "netlists"  # folder of elaborated netlists
 
 
 @dataclass(frozen=True)
@@ -31,8 +36,16 @@ class Job:
 
 
 def _key(job: Job, digest: str) -> str:
-    text = json.dumps([job.configuration.rtl_parameters(), job.corners, job.most_attempts, job.naming, digest], sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()
+    """`digest`: of run_inputs."""
+    return hashlib.sha256(json.dumps([job.corners, job.most_attempts, job.naming, digest]).encode()).hexdigest()
+
+
+def _keys(jobs: list[Job], technology: Technology, folder: Path, pool: ProcessPoolExecutor) -> dict[str, str]:
+    """Keys by the jobs' names. `folder`: of elaborated netlists, one for the jobs of one configuration."""
+    inputs = run_inputs.shared(technology)
+    items = {job.configuration.name: job.configuration for job in jobs}
+    netlists = {name: pool.submit(run_inputs.netlist, item, technology, folder / name) for name, item in items.items()}
+    return {job.name: _key(job, inputs.of(job.configuration, netlists[job.configuration.name].result())) for job in jobs}
 
 
 def _work(job: Job, technology: Technology, folder: Path, key: str) -> Result:
@@ -41,33 +54,34 @@ def _work(job: Job, technology: Technology, folder: Path, key: str) -> Result:
     return result
 
 
-def _kept(folder: Path, key: str) -> Result | None:
+def _kept(folder: Path, key: str, configuration: Configuration) -> Result | None:
+    """The kept result, with the configuration of now: its title, for example, is no input of a run."""
     try:
         kept_key, result = pickle.loads((folder / "result.pickle").read_bytes())
     except (OSError, pickle.UnpicklingError, EOFError, AttributeError, TypeError, ValueError):
         return None
-    return result if kept_key == key else None
+    return replace(result, configuration=configuration) if kept_key == key else None
 
 
 def run_all(jobs: Iterable[Job], technology: Technology, build: Path, workers: int,
             progress: Callable[[str], None]) -> dict[str, Result]:
     """Results by the jobs' names, in the order of the jobs. The longest jobs (with engines) start first. The first failure stops all."""
-    digest = input_digest(technology)
     jobs = list(jobs)
     results: dict[str, Result] = {}
     waiting = []
-    for job in jobs:
-        kept = _kept(build / job.name, _key(job, digest))
-        if kept is not None:
-            results[job.name] = kept
-        else:
-            waiting.append(job)
-    waiting.sort(key=lambda job: not job.configuration.is_pool)
-    done = len(results)
     # A run builds large trees without cycles, which the collector would walk again and again.
     pool = ProcessPoolExecutor(workers, initializer=gc.disable)
     try:
-        futures = {pool.submit(_work, job, technology, build / job.name, _key(job, digest)): job for job in waiting}
+        keys = _keys(jobs, technology, build / NETLISTS, pool)
+        for job in jobs:
+            kept = _kept(build / job.name, keys[job.name], job.configuration)
+            if kept is not None:
+                results[job.name] = kept
+            else:
+                waiting.append(job)
+        waiting.sort(key=lambda job: not job.configuration.is_pool)
+        done = len(results)
+        futures = {pool.submit(_work, job, technology, build / job.name, keys[job.name]): job for job in waiting}
         for future in as_completed(futures):
             name = futures[future].name
             results[name] = future.result()

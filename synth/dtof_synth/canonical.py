@@ -54,7 +54,8 @@ def _running_order(block: _Block) -> list[tuple[int, int, str]]:
 
 
 def _module(lines: list[str]) -> list[str]:
-    """Sorts a module: cells by name, wires in the order in which cells name them."""
+    """Sorts a module: cells by name, wires in the order in which cells name them, connections by their text: Yosys writes these in the order
+    of a hash."""
     blocks = _blocks(lines)
     of_kind = {kind: [block for block in blocks if block.kind == kind] for kind in ("wire", "cell", "connect")}
     cells = sorted(of_kind["cell"], key=_running_order)
@@ -65,8 +66,11 @@ def _module(lines: list[str]) -> list[str]:
     new_name |= {block.name: f"$cell{number:06d}" for number, block in enumerate(cells) if block.name.startswith("$")}
     wires = sorted((block for block in of_kind["wire"] if block.name not in private or block.name in used),
                    key=lambda block: new_name.get(block.name, block.name))
-    return [_PRIVATE.sub(lambda found: new_name.get(found.group(), found.group()), line)
-            for block in wires + cells + of_kind["connect"] for line in block.lines]
+
+    def renamed(blocks: list[_Block]) -> list[str]:
+        return [_PRIVATE.sub(lambda found: new_name.get(found.group(), found.group()), line) for block in blocks for line in block.lines]
+
+    return renamed(wires + cells) + sorted(renamed(of_kind["connect"]))
 
 
 def _in_order(top: str, children: dict[str, list[str]]) -> dict[str, None]:

@@ -10,27 +10,24 @@ which are in the digest, too. So an equal digest stands for an equal result.
 from __future__ import annotations
 
 import argparse
-import ast
 import hashlib
 import json
 import os
 import sys
 from collections.abc import Callable, Iterable
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict
 from pathlib import Path
 
-from . import configuration, growth, library, readouts, run, scene_power, signalled_clear, sram_kit, standard_cells, subsystem, tools
+from . import configuration, growth, library, run, run_inputs, scene_power, signalled_clear, sram_kit, standard_cells, subsystem, tools
 from . import technology as technologies
 from .canonical import canonical
 from .cli import ROOT, all_configurations
-from .configuration import Configuration, engine_memories, macro_sizes, memories, shared_memories
+from .configuration import Configuration, macro_sizes
 from .errors import FlowError
 
 BUILD = ROOT / "build" / "elaborated"
 Named = dict[str, Configuration]
 _MAKE_OTHER_REPORTS = {"scale.py"}  # of arrays that are not in configurations.toml
-_TEXT_ONLY = {"title", "enumerator", "summary", "style", "model", "choices", "defaults", "memories", "word"}  # of a read-out
 
 
 def _layout(named: Named) -> list[Configuration]:
@@ -93,22 +90,13 @@ def _work(job: tuple[Configuration, Path, Path, bool]) -> str:
 
 def read_by_the_flow(root: Path) -> list[str]:
     """Parameters that the flow's Python names. What no file names enters a report by elaboration alone."""
-    known = readouts.load().parameters.keys()
-    return sorted({node.value for file in (root / "synth" / "dtof_synth").rglob("*.py") if file.name not in _MAKE_OTHER_REPORTS
-                   for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
-                   if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value in known})
+    return run_inputs.named_parameters(file for file in (root / "synth" / "dtof_synth").rglob("*.py") if file.name not in _MAKE_OTHER_REPORTS)
 
 
 def described(item: Configuration, parameters: Iterable[str]) -> str:
     """What the flow's Python reads of a configuration, in one line."""
-    readout = {name: readouts.evaluate(value, item.parameters) if name in ("passes", "bin_width", "scan_width", "decode_clocks")
-               and value is not None else value for name, value in asdict(item.described).items() if name not in _TEXT_ONLY}
-    return json.dumps({
-        "title": item.title, "variant_of": item.variant_of, "thesis_mm2": item.thesis_mm2, "note": item.note, "readout": readout,
-        "parameters": {name: item[name] for name in parameters if name in item.parameters},
-        "memories": {name: size.name for name, size in memories(item).items()},
-        "engine_memories": {name: size.name for name, size in engine_memories(item).items()},
-        "shared_memories": {name: size.name for name, size in shared_memories(item).items()}}, ensure_ascii=False)
+    return json.dumps({"title": item.title, "variant_of": item.variant_of, "thesis_mm2": item.thesis_mm2, "note": item.note,
+                       **run_inputs.read_by_python(item, parameters)}, ensure_ascii=False)
 
 
 def lines(report: str, root: Path, folder: Path, workers: int) -> list[str]:

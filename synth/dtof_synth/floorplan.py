@@ -5,17 +5,21 @@ Columns stand side by side in order. The shared logic is below their middle, an 
 ports of a column's timestamps above the column. Only the distance along the row counts: a column is 0.02 mm wide and the row 5 mm.
 
 Between the shared logic and the columns a signal goes from register to register (hdl/common/dtof_broadcast.sv). The last register is
-copied, so that each copy serves nearby columns through few buffers. Longer wires get a repeater every REPEATER_UM. All of this is in the
-netlist, so it is counted, timed (spef.py) and simulated like any other cell.
+copied, so that each copy serves nearby columns through few buffers. Longer wires get a repeater every REPEATER_UM. If there are more than
+two registers, those between the first and the last one are copied, too: each copy serves a stretch of the next registers, and the
+registers of a way stand at equal distances. So do the registers on an engine's way back. All of this is in the netlist, so it is
+counted, timed (spef.py) and simulated like any other cell.
 """
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from . import netlist
+from .broadcast import Registers
 from .configuration import Configuration
 from .errors import FlowError
 from .library import Library
@@ -145,8 +149,9 @@ class _Spreader:
         self.plan.places[sink.cell] = place_um
         return sink
 
-    def spread(self, net: int, driver: str | None, maximum_ff: float, copy: bool) -> None:
-        """Gives a net the buffers and repeaters that it needs. `copy`: the net's driver is a register that may be copied."""
+    def spread(self, net: int, driver: str | None, maximum_ff: float, copy: bool, number: int = 0, span_um: float = COPY_UM) -> None:
+        """Gives a net the buffers and repeaters that it needs. `copy`: the net's driver is a register that may be copied. `number`: of a
+        register between the first and the last one of its way (broadcast.py); a copy of it serves `span_um` of the next registers."""
         sinks = self.builder.nets[net]
         start = self.plan[driver] if driver is not None else self.plan.port_um(net, sinks[0].cell)
         limit = maximum_ff * TREE_LOAD_SHARE
@@ -165,6 +170,13 @@ class _Spreader:
                 name, copied = self.builder.copy_register(net, cluster)
                 self.plan.places[name] = self._centre(cluster)
                 self.builder.nets[copied] = self._relieve(copied, self.plan[name], cluster, limit)
+            self.builder.nets[net] = near
+        elif number and driver is not None:
+            for cluster in self._clusters(leaves, math.inf, span_um):
+                farthest = max((self.plan[sink.cell] for sink in cluster), key=lambda place: abs(place - start))
+                name, copied = self.builder.copy_register(net, cluster)
+                self.plan.places[name] = place = start + (farthest - start) * (number - 1) / number
+                self.builder.nets[copied] = self._relieve(copied, place, self._trunk(copied, place, cluster), limit)
             self.builder.nets[net] = near
         else:
             self.builder.nets[net] = self._relieve(net, start, near + self._trunk(net, start, leaves), limit)
@@ -196,8 +208,9 @@ class _Spreader:
 
 
 def spread(plan: Floorplan, library: Library, pin_load: Callable[[str, str], float], skip: set[int],
-           wire: Wire = PESSIMISTIC) -> None:
-    """Inserts trees, copies of registers and repeaters in the top. `skip`: clocks and constants."""
+           wire: Wire = PESSIMISTIC, stages: int = 2) -> None:
+    """Inserts trees, copies of registers and repeaters in the top. `skip`: clocks and constants; `stages`: registers from the shared logic
+    to a block."""
     array = plan.array
     builder = TreeBuilder(array, library, pin_load)
     spreader = _Spreader(plan, builder, library, wire)
@@ -207,11 +220,18 @@ def spread(plan: Floorplan, library: Library, pin_load: Callable[[str, str], flo
     registers = {net for net, name in builder.drivers.items() if array["cells"][name]["type"] in library.sequential}
     # The last registers of a broadcast first: copies add sinks to the nets before them.
     copied = {net for net in registers if any(sink.cell in plan.blocks for sink in builder.nets.get(net, []))}
+    numbers: dict[int, int] = {}
+    if stages > 2:
+        rows = Registers(array, set(library.sequential))
+        numbers = rows.numbers(copied, stages)
+        outputs = {net: plan[name] for net, name in cell_of.items() if name in plan.blocks}
+        plan.places |= rows.results(outputs, plan.places, plan.centre_um, stages)
+    moved = copied | numbers.keys()
     order: list[int] = []
 
     def put(net: int) -> None:
         for sink in builder.nets.get(net, []):
-            behind = [bit for bits in array["cells"][sink.cell]["connections"].values() for bit in bits if bit in copied]
+            behind = [bit for bits in array["cells"][sink.cell]["connections"].values() for bit in bits if bit in moved]
             if array["cells"][sink.cell]["type"] in library.sequential:
                 for other in behind:
                     if other != net and other not in order and cell_of[other] == sink.cell:
@@ -219,11 +239,11 @@ def spread(plan: Floorplan, library: Library, pin_load: Callable[[str, str], flo
         if net not in order:
             order.append(net)
 
-    for net in sorted(copied):
+    for net in sorted(moved):
         put(net)
-    for net in [*order, *sorted(drivers.keys() - copied)]:
+    for net in [*order, *sorted(drivers.keys() - moved)]:
         if net not in skip and builder.nets.get(net):
-            spreader.spread(net, cell_of.get(net), drivers[net], net in copied)
+            spreader.spread(net, cell_of.get(net), drivers[net], net in copied, numbers.get(net, 0), plan.centre_um / max(stages - 1, 1))
 
 
 def pin_load(library: Library, macro_pin_ff: float) -> Callable[[str, str], float]:
@@ -250,7 +270,8 @@ def finish(design: dict, library: Library, macro_pin_ff: float, configuration: C
 
     array = netlist.top(design)
     plan = Floorplan(design, configuration.module_columns, configuration.engine_columns)
-    spread(plan, library, top_load, netlist.clock_nets(array) | netlist.constant_nets(array, library))
+    spread(plan, library, top_load, netlist.clock_nets(array) | netlist.constant_nets(array, library),
+           stages=configuration["BROADCAST_STAGES"])
     return plan
 
 

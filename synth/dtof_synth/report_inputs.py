@@ -13,7 +13,8 @@ sys.path.append(str(ROOT / "scripts"))
 from figures import reports, staleness  # noqa: E402
 from figures.source_tree import SourceTree  # noqa: E402
 
-FLOW = "synthesis"  # group of inputs
+FLOW = "synthesis"  # groups of inputs
+RUN = "run"
 
 
 def begin(name: str) -> str:
@@ -29,3 +30,8 @@ def record(name: str) -> None:
 def flow_digest(root: Path) -> str:
     """Digest of RTL, constraints, and everything that the flow runs."""
     return reports.group(root, FLOW, SourceTree(root)).digest
+
+
+def run_files(root: Path) -> dict[str, str]:
+    """Digests of the files that a run needs besides RTL, configuration and libraries."""
+    return reports.group(root, RUN, SourceTree(root)).files

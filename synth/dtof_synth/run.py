@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 import re
@@ -11,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import astuple, dataclass, field
 from pathlib import Path
 
-from . import (clock_gating, endpoints, floorplan, loads, netlist, power, report_inputs, same_logic, spef, sram_kit, sram_model, stand_in,
+from . import (clock_gating, endpoints, floorplan, loads, netlist, power, same_logic, spef, sram_kit, sram_model, stand_in,
                standard_cells, timing, tools, verilog)
 from .canonical import canonical
 from .configuration import Configuration, bits_per_pixel, counted_macros, engine_memories, macro_sizes, memories, shared_memories
@@ -33,6 +32,7 @@ HOLD_BUFFER_SLOW_NS = 0.12  # at most, in the slow corner with margins
 DEMANDED_SLACK_NS = 0.1  # of a mapping in the slow corner: wires and a clock tree are still to come
 FINISHED_COLUMN = "finished_column.json"  # in the folder of a run
 BOTH_CORNERS = ("typical", "slow")
+_SCRIPTS = Path(__file__).resolve().parents[1] / "yosys"
 WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": floorplan.TYPICAL}
 
 
@@ -149,16 +149,28 @@ def rtl_files(root: Path) -> list[Path]:
 
 def to_generic(root: Path, settings: Path, folder: Path, name: str) -> None:
     """Turns the RTL that the settings name, below `root`, into `folder`/generic.il by way of `folder`/elaborated.il. Checks must pass."""
-    elaborated = folder / "elaborated.il"
-    scripts = Path(__file__).resolve().parents[1] / "yosys"
-    tools.run_yosys(scripts / "elaborate.tcl", settings, folder / "elaborate.log", name)
-    elaborated.write_text(canonical(elaborated.read_text(encoding="utf-8"), root), encoding="utf-8")
-    tools.run_yosys(scripts / "generic.tcl", settings, folder / "generic.log", name)
+    (folder / "elaborated.il").write_text(_elaborated(root, settings, folder, name), encoding="utf-8")
+    tools.run_yosys(_SCRIPTS / "generic.tcl", settings, folder / "generic.log", name)
+
+
+def _elaborated(root: Path, settings: Path, folder: Path, name: str) -> str:
+    tools.run_yosys(_SCRIPTS / "elaborate.tcl", settings, folder / "elaborate.log", name)
+    return canonical((folder / "elaborated.il").read_text(encoding="utf-8"), root)
 
 
 def elaborate(configuration: Configuration, technology: Technology, folder: Path, kept_modules: Iterable[str] = ()) -> None:
     """Turns the RTL into the technology-independent netlist generic.il with clock gates. Checks must pass. `kept_modules` are not flattened
     into their surroundings; columns, pairs and engines never are."""
+    to_generic(technology.root, _generic_settings(configuration, technology, folder, kept_modules), folder, configuration.name)
+    clock_gating.insert(folder / "generic.il", technology.slow)
+
+
+def elaborated(configuration: Configuration, technology: Technology, folder: Path) -> str:
+    """The netlist from which `elaborate` goes on: all that a run reads of the RTL."""
+    return _elaborated(technology.root, _generic_settings(configuration, technology, folder), folder, configuration.name)
+
+
+def _generic_settings(configuration: Configuration, technology: Technology, folder: Path, kept_modules: Iterable[str] = ()) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     scripts = technology.root / "synth" / "yosys"
     settings = folder / "generic_settings.tcl"
@@ -172,8 +184,7 @@ def elaborate(configuration: Configuration, technology: Technology, folder: Path
         "technology_files": technology_files, "black_boxes": black_boxes, "liberty": technology.slow.path,
         "parameters": configuration.rtl_parameters(), "kept_modules": [f"*{name}*" for name in kept_modules],
         "elaborated_netlist": folder / "elaborated.il", "generic_netlist": folder / "generic.il"})
-    to_generic(technology.root, settings, folder, configuration.name)
-    clock_gating.insert(folder / "generic.il", technology.slow)
+    return settings
 
 
 def map_to_cells(configuration: Configuration, technology: Technology, folder: Path, effort: Effort, naming: int = 0) -> dict:
@@ -566,12 +577,3 @@ def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink
     report = time("sta_slow_wires.log", ("nominal", "margins"))
     resized = time("sta_resize_wires.log", ("resize",), **_resize_settings(effort, technology.slow))
     return OtherWires(report.slack, report.margin().slack, resized.resized_slack, resized.resized_area / 1e6)
-
-
-def input_digest(technology: Technology) -> str:
-    """Hash of all inputs of a run except the parameters: the flow, and the libraries that it has made."""
-    digest = hashlib.sha256(report_inputs.flow_digest(technology.root).encode())
-    for file in sorted({*technology.kit.iterdir(), technology.typical.path, technology.slow.path}, key=lambda file: file.name):
-        digest.update(file.name.encode())
-        digest.update(file.read_bytes())
-    return digest.hexdigest()

@@ -347,9 +347,8 @@ def report(rows: list[Row], wholes: list[Whole]) -> str:
            "| read-out | extrapolated, mm2 | whole, mm2 | difference | fmax slow, MHz | the slowest path begins at | fmax slow in dtof_subsystem, MHz |",
            "|---|---:|---:|---:|---:|---|---:|", *compared, "",
            "In dtof_subsystem the release of the array's reset has several periods, because the array's clock is stopped "
-           "([dtof_array_reset](../docs/reference/blocks/subsystem.md#dtof_array_reset)). Then the commands from the shared logic to the columns and the "
-           "results of the engines cross half of the array in one period: the flow puts all registers of the broadcast but the last one beside the shared "
-           "logic. A layout that spreads them over the way needs no such long wire; an engine's results have no register on their way."]
+           "([dtof_array_reset](../docs/reference/blocks/subsystem.md#dtof_array_reset)). The registers of the commands to the columns, and of the "
+           "engines' results, stand at equal distances on their way."]
           if wholes else []),
         "",
         "## Simulation",

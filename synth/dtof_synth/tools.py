@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import os
 import re
+import signal
 import subprocess
 from pathlib import Path
 
 from .errors import FlowError
 
+_CRASHED = f"\nEXIT {-signal.SIGSEGV.value}"
 Setting = str | float | int | list | dict | Path
 
 
@@ -27,9 +29,9 @@ def write_settings(path: Path, settings: dict[str, Setting]) -> None:
                     encoding="utf-8")
 
 
-def _run(command: list[str], script: Path, settings: Path, log: Path) -> str:
-    """Runs a tool with a script. The script finds its settings and neighbouring scripts by environment variables."""
-    environment = {**os.environ, "DTOF_SETTINGS": str(settings), "DTOF_SCRIPTS": str(script.parent)}
+def _run(command: list[str], script: Path, settings: Path, log: Path, **more: str) -> str:
+    """Runs a tool with a script. The script finds its settings and neighbouring scripts by environment variables, as `more`."""
+    environment = {**os.environ, "DTOF_SETTINGS": str(settings), "DTOF_SCRIPTS": str(script.parent), **more}
     try:
         finished = subprocess.run([*command, str(script)], env=environment, check=False, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, text=True)
@@ -57,8 +59,12 @@ def run_yosys(script: Path, settings: Path, log: Path, name: str) -> None:
 
 
 def run_sta(script: Path, settings: Path, log: Path, name: str) -> str:
-    """Runs OpenSTA; returns its output. Success is judged by its marker and messages, since its exit status is meaningless."""
-    output = _run(["sta", "-no_splash", "-exit"], script, settings, log)
+    """Runs OpenSTA; returns its output. Success is judged by its marker and messages, since its exit status is meaningless. After a crash
+    it runs once more without the command that crashes (slack_of in timing.tcl)."""
+    command = ["sta", "-no_splash", "-exit"]
+    output = _run(command, script, settings, log)
+    if output.endswith(_CRASHED):
+        output = _run(command, script, settings, log, DTOF_SLACK_OF_PATHS="1")
     failed = re.search(r"^DTOF_STA_FAILED (.*)", output, re.MULTILINE)
     error = re.search(r"^Error: (.*)", output, re.MULTILINE)
     warning = re.search(r"^Warning: (.*(?:not found|unresolved|no .*drivers?).*)", output, re.MULTILINE)

@@ -157,7 +157,7 @@ proc note {gate now next} {
 }
 
 proc grow_late_paths {} {
-  if {[worst_slack -max] < -$::HOPELESS_NS} { return }
+  if {[slack_of max] < -$::HOPELESS_NS} { return }
   for {set grown 0} {$grown < $::MOST_GROWN && [total_negative_slack] < 0} {} {
     set growths [best_growths]
     if {$growths eq ""} { break }
@@ -249,6 +249,6 @@ proc resize {} {
   dict for {gate name} $::resized { puts "DTOF_RESIZED $gate $name" }
   foreach gate $::dropped { puts "DTOF_DROPPED $gate" }
   puts "DTOF_RESIZED_AREA $::area"
-  puts "DTOF_RESIZED_SLACK [expr {[worst_slack -max] + $::guard}]"
+  puts "DTOF_RESIZED_SLACK [expr {[slack_of max] + $::guard}]"
   puts "DTOF_END"
 }

@@ -4,16 +4,16 @@
 import tempfile
 import time
 import unittest
-from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
-from dtof_synth import batch, configuration
+from dtof_synth import batch, configuration, run_inputs
 from dtof_synth.configuration import Configuration
 from dtof_synth.errors import FlowError
 from dtof_synth.run import Technology
 
+from . import counted_runs
 from .partial import part_of
 from .small_results import ROOT
 
@@ -38,7 +38,7 @@ class Batch(unittest.TestCase):
     def run_all(self, first: int) -> tuple[dict | None, int]:
         """(results, or None where a job failed; jobs that had begun a second later)."""
         with tempfile.TemporaryDirectory() as folder, mock.patch.object(batch, "_work", work), \
-                mock.patch.object(batch, "_key", lambda *_: "key"), mock.patch.object(batch, "input_digest", lambda _: "digest"):
+                mock.patch.object(batch, "_keys", lambda jobs, *_: {job.name: "key" for job in jobs}):
             results: dict | None
             try:
                 results = batch.run_all([job(number) for number in range(first, JOBS)], part_of(Technology), Path(folder), 2, lambda _: None)
@@ -74,36 +74,24 @@ class Kept(unittest.TestCase):
         self.said: list[str] = []
 
     def run_all(self, jobs: list[batch.Job], digest: str = "digest") -> dict:
-        """Runs jobs in this process, one after the other, as they are submitted."""
-        self.ran.clear()
+        """Runs jobs whose inputs have this digest, and another one for each configuration."""
         self.said.clear()
-
-        def run(configuration_of_job, _technology, folder: Path, *_) -> str:
-            self.ran.append(configuration_of_job.name)
-            return f"{configuration_of_job.name} in {folder.name}"
-
-        def submit(function, *arguments) -> Future:
-            future: Future = Future()
-            future.set_result(function(*arguments))
-            return future
-
-        for job in jobs:
-            (self.folder / job.name).mkdir(exist_ok=True)
-        pool = mock.Mock(submit=submit)
-        with mock.patch.object(batch, "run", run), mock.patch.object(batch, "input_digest", lambda _: digest), \
-                mock.patch.object(batch, "ProcessPoolExecutor", return_value=pool), \
-                mock.patch.object(batch, "as_completed", lambda futures: list(futures)):
-            return batch.run_all(jobs, part_of(Technology), self.folder, 2, self.said.append)
+        shared = part_of(run_inputs.Inputs, of=lambda item, netlist: f"{digest} {item['NP']} {netlist}")
+        with mock.patch.object(run_inputs, "shared", lambda _: shared), \
+                mock.patch.object(run_inputs, "netlist", lambda item, _, folder: f"{item.name} in {folder.name}"):
+            results, self.ran = counted_runs.run_all(jobs, part_of(Technology), self.folder, self.said.append)
+        return results
 
     def test_arrays_with_engines_start_first_and_each_end_is_shown(self) -> None:
         results = self.run_all(self.jobs)
         self.assertEqual(self.ran, ["poolpointer", "ezpointer", "hispointer"])
-        self.assertEqual(results, {name: f"{name} in {name}" for name in ("ezpointer", "hispointer", "poolpointer")})
+        self.assertEqual({name: one.column.area for name, one in results.items()}, {"ezpointer": 502.0, "hispointer": 503.0, "poolpointer": 501.0})
+        self.assertEqual(list(results), ["ezpointer", "hispointer", "poolpointer"])
         self.assertEqual(self.said, ["[1/3] poolpointer", "[2/3] ezpointer", "[3/3] hispointer"])
 
     def test_a_result_is_kept_until_an_input_changes(self) -> None:
         first = self.run_all(self.jobs[:2])
-        self.assertEqual(self.run_all(self.jobs[:2]), first)
+        self.assertEqual(self.figures(self.run_all(self.jobs[:2])), self.figures(first))
         self.assertEqual(self.ran, [])
         self.run_all(self.jobs)
         self.assertEqual((self.ran, self.said), (["poolpointer"], ["[3/3] poolpointer"]))
@@ -112,20 +100,35 @@ class Kept(unittest.TestCase):
         self.run_all([replace(job, most_attempts=1) for job in self.jobs], "other inputs")
         self.assertEqual(len(self.ran), 3)
 
+    @staticmethod
+    def figures(results: dict) -> dict:
+        return {name: one.column.area for name, one in results.items()}
+
+    def test_a_kept_result_has_the_configuration_of_now(self) -> None:
+        self.run_all(self.jobs[:1])
+        now = replace(self.jobs[0].configuration, title="another title")
+        found = self.run_all([replace(self.jobs[0], configuration=now)])
+        self.assertEqual((self.ran, found["ezpointer"].configuration.title), ([], "another title"))
+
     def test_a_damaged_result_is_computed_anew(self) -> None:
         self.run_all(self.jobs[:1])
         (self.folder / "ezpointer" / "result.pickle").write_bytes(b"no pickle")
         self.run_all(self.jobs[:1])
         self.assertEqual(self.ran, ["ezpointer"])
 
-    def test_each_input_has_its_key_and_the_order_of_parameters_has_none(self) -> None:
+    def test_a_netlist_of_each_configuration_serves_all_its_namings(self) -> None:
+        jobs = [replace(job, naming=naming) for job in self.jobs[:2] for naming in (0, 1)]
+        with mock.patch.object(run_inputs, "shared", lambda _: part_of(run_inputs.Inputs, of=lambda item, netlist: netlist)), \
+                mock.patch.object(run_inputs, "netlist", side_effect=lambda item, _, folder: item.name) as elaborated:
+            counted_runs.run_all(jobs, part_of(Technology), self.folder, self.said.append)
+        self.assertEqual([call.args[2] for call in elaborated.call_args_list],
+                         [self.folder / batch.NETLISTS / name for name in ("ezpointer", "hispointer")])
+
+    def test_each_input_has_its_key(self) -> None:
         job = self.jobs[0]
-        others = [job, replace(job, corners=("slow",)), replace(job, most_attempts=1), replace(job, naming=1), self.jobs[1]]
+        others = [job, replace(job, corners=("slow",)), replace(job, most_attempts=1), replace(job, naming=1)]
         keys = {batch._key(one, digest) for one in others for digest in ("a", "b")}
-        self.assertEqual(len(keys), 10)
-        one, other = ({"NP": 8, "NB": 4}, {"NB": 4, "NP": 8})
-        keys = {batch._key(replace(job, configuration=mock.Mock(rtl_parameters=lambda found=found: found)), "a") for found in (one, other)}
-        self.assertEqual(len(keys), 1)
+        self.assertEqual(len(keys), 8)
 
 
 if __name__ == "__main__":

@@ -26,9 +26,12 @@ def cell(kind: str, inputs: dict[str, int], outputs: dict[str, int]) -> dict:
             "connections": {pin: [bit] for pin, bit in {**inputs, **outputs}.items()}}
 
 
-def array(columns: int) -> dict:
-    """Two registers in a row tell `columns` columns something; each has a timestamp of its own at a port."""
-    cells = {"near": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 4}), "far": cell("DFF_X1", {"D": 4, "CK": 2}, {"Q": 5})}
+def array(columns: int, stages: int = 2) -> dict:
+    """Registers in a row tell `columns` columns something; each has a timestamp of its own at a port."""
+    cells = {"near": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 4})}
+    nets = [4, *(2000 + number for number in range(2, stages)), 5]
+    cells |= {f"middle{number}": cell("DFF_X1", {"D": nets[number - 2], "CK": 2}, {"Q": nets[number - 1]}) for number in range(2, stages)}
+    cells["far"] = cell("DFF_X1", {"D": nets[-2], "CK": 2}, {"Q": 5})
     ports = {"clk_i": {"direction": "input", "bits": [2]}, "told_i": {"direction": "input", "bits": [3]},
              floorplan.TIMESTAMP_PORT: {"direction": "input", "bits": [100 + index for index in range(columns)]}}
     for index in range(columns):

@@ -314,27 +314,6 @@ class OtherWays(InFolder):
         self.assertEqual(asked[1][5], {"blocks": ["a_column", ["c0"], 2], "drives": [["A", "B"]], "cell_areas": {"A": 1.0}, "guard": "0.004",
                                        "shrinkable": [], "buffer_pins": ["A", "Y"], "dispensable": []})
 
-    def test_each_file_of_a_run_is_in_its_digest_with_its_name(self) -> None:
-        kit = self.folder / "kit"
-        kit.mkdir()
-        for name in ("a.lib", "typical.lib", "slow.lib"):
-            ((kit if name == "a.lib" else self.folder) / name).write_text(name, encoding="utf-8")
-        some = part_of(run.Technology, root=ROOT, kit=kit, typical=part_of(library.Library, path=self.folder / "typical.lib"),
-                       slow=part_of(library.Library, path=self.folder / "slow.lib"))
-
-        def digest(flow: str = "flow") -> str:
-            with mock.patch.object(run.report_inputs, "flow_digest", return_value=flow):
-                return run.input_digest(some)
-
-        found = [digest(), digest("other")]
-        for path in (kit / "a.lib", some.typical.path, some.slow.path):
-            path.write_text("changed", encoding="utf-8")
-            found.append(digest())
-        (kit / "a.lib").rename(kit / "b.lib")
-        found.append(digest())
-        self.assertEqual(len(set(found)), len(found))
-        self.assertEqual(digest(), found[-1])
-
 
 class Areas(unittest.TestCase):
     def test_an_arrays_area_by_hand(self) -> None:

@@ -13,11 +13,11 @@ import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
-from .. import batch, configuration, technology
+from .. import batch, configuration, run_inputs, technology
 from ..cli import all_configurations
 from ..configuration import Configuration
 from ..errors import FlowError
-from ..run import Technology, input_digest, with_wires
+from ..run import Technology, with_wires
 from . import flow, picture, report, results
 from .flow import Result
 from .tools import Cells
@@ -42,7 +42,7 @@ def _key(item: Configuration, technologies: Technology, cells: Cells, generic_ar
     """Hash of all inputs of a layout. The wording of the report is no input, so a new wording needs no new layouts."""
     folder = Path(__file__).resolve().parent
     said_only = {folder / name for name in ("command.py", "picture.py", "report.py")}
-    digest = hashlib.sha256(f"{input_digest(technologies)} {item.rtl_parameters()} {generic_area}".encode())
+    digest = hashlib.sha256(f"{run_inputs.everything(technologies)} {item.rtl_parameters()} {generic_area}".encode())
     for file in sorted({*folder.glob("*.py"), *(ROOT / "synth" / "magic").iterdir(), *cells.folder.iterdir()} - said_only):
         digest.update(file.read_bytes())
     return digest.hexdigest()
