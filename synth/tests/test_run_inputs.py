@@ -85,7 +85,7 @@ class Rtl(Edited):
         self.assertEqual(self.ran(), ["parity", "plain"])
 
     def test_logic_of_one_configuration_runs_this_one(self) -> None:
-        self.plant("hdl/common/dtof_parity_sram.sv", "{^write_data_i, write_data_i}", "{~^write_data_i, write_data_i}")
+        self.plant("hdl/common/dtof_parity_sram.sv", "^write_data_i[", "~^write_data_i[")
         self.assertEqual(self.ran(), ["parity"])
 
     def test_another_name_runs_what_has_it(self) -> None:  # ABC's result depends on names
