@@ -121,7 +121,10 @@ class Ways(WithLibrary):
         for stages in (None, 2):
             design = array(200)
             plan = Floorplan(design, 1)
-            floorplan.spread(plan, self.library, self.pin_load, {2}, **({} if stages is None else {"stages": stages}))
+            if stages is None:
+                floorplan.spread(plan, self.library, self.pin_load, {2})
+            else:
+                floorplan.spread(plan, self.library, self.pin_load, {2}, stages=stages)
             found.append((design, plan.places))
         self.assertEqual(found[0], found[1])
 

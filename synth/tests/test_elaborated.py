@@ -114,9 +114,9 @@ class Described(unittest.TestCase):
     def test_parameters_that_the_flow_reads_are_printed(self) -> None:
         names = elaborated.read_by_the_flow(ROOT)
         self.assertLessEqual({"NP", "SRAM_NUM", "PIXELS_PER_SRAM", "SLOTS", "ENGINE_COLUMNS", "SIGNALLED_CLEAR"}, set(names))
-        self.assertFalse({"BROADCAST_STAGES", "WINDOW_CENTRED"} & set(names))  # which enter by elaboration alone
+        self.assertFalse({"POINTER_STEP", "WINDOW_CENTRED"} & set(names))  # which enter by elaboration alone
         line = elaborated.described(POINTER, names)
-        self.assertEqual(elaborated.described(POINTER.with_parameters("ezpointer", BROADCAST_STAGES=3), names), line)
+        self.assertEqual(elaborated.described(POINTER.with_parameters("ezpointer", WINDOW_CENTRED=1), names), line)
         self.assertNotEqual(elaborated.described(POINTER.with_parameters("ezpointer", SLOTS=3), names), line)
         self.assertIn('"memories": {"pointer": "sram_1r1w_3x14"}', line)
 
