@@ -60,7 +60,7 @@ struct ArrayResult {
 
 struct MetricStudyOptions {
   std::uint32_t acquisitions = 3333;
-  int faults = 300;  ///< at most, of each stratum and kind
+  int faults = 800;  ///< at most, of each stratum and kind
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: all processors
 };

@@ -227,9 +227,10 @@ class Resized:
     """Result of resizing."""
 
     changed: bool
-    slack: float  # with margins, of the first engine and its columns, ns
+    slack: float  # with margins, of the engine that was examined and its columns, ns
 
 
+_PLACE = re.compile(r"\bg_(quad|engine)\[(\d+)\]")  # in the name of an end of a path
 STAND_IN_LIBERTY = "stand_in.lib"  # in the folder of a netlist
 
 
@@ -292,10 +293,19 @@ class _Netlist:
         """Modules of the blocks: the column's, and the engine's if there are engines."""
         return [kind for kind in (netlist.column_module(self.design), netlist.engine_module(self.design)) if kind]
 
-    def _first_columns(self) -> list[str]:
-        """Columns that share the first engine; without engines the same number."""
-        number = -(-(self.configuration.engine_columns or RESIZED_COLUMNS) // self.configuration.module_columns)
-        return sorted(netlist.columns(self.design), key=lambda name: self.plan[name])[:number]
+    def _columns_of(self, engine: int) -> list[str]:
+        """Column modules with columns that share an engine; without engines the first ones."""
+        first = engine * self.configuration.engine_columns
+        end = first + (self.configuration.engine_columns or RESIZED_COLUMNS)
+        modules = slice(first // self.configuration.module_columns, -(-end // self.configuration.module_columns))
+        return sorted(netlist.columns(self.design), key=lambda name: self.plan[name])[modules]
+
+    def engine_of(self, margin: Margin) -> int:
+        """Engine at the slowest path, by the names of its ends; 0 if neither says one."""
+        for end in (margin.end, margin.start):
+            if place := _PLACE.search(end):
+                return int(place[2]) if place[1] == "engine" else int(place[2]) * self.configuration.module_columns // self.configuration.engine_columns
+        return 0
 
     def write_wires(self, timed: dict) -> None:
         """Writes the wires between blocks for all corners."""
@@ -326,12 +336,12 @@ class _Netlist:
         """Judges the ends of paths in a report that includes the step `check`."""
         return endpoints.judge(self.configuration.name, report.unchecked, self.written, self.technology.slow, self.cut)
 
-    def resize(self, again: bool, guard_ns: float = RESIZE_GUARD_NS) -> Resized:
+    def resize(self, again: bool, guard_ns: float = RESIZE_GUARD_NS, engine: int = 0) -> Resized:
         """Resizes gates in the slow corner with margins. Gates on failing paths get more drive. Except with `again`, other gates get less
-        drive, and mapping buffers that no path needs are removed. Only the first engine with its columns is examined, because each trial is
+        drive, and mapping buffers that no path needs are removed. Only one engine with its columns is examined, because each trial is
         timed anew. `guard_ns`: target slack there, since other engines may have less."""
         library = self.technology.slow
-        self._write(self._first_columns())
+        self._write(self._columns_of(engine))
         kinds = self._kinds()
         pin_load = floorplan.pin_load(library, sram_kit.PIN_FF)
         shrinkable: list[tuple[str, str]] = []
@@ -436,16 +446,19 @@ class _Attempt:
 def _timed(timed: _Netlist, effort: int) -> _Attempt:
     if timed.technology.fast is None:
         return _Attempt(timed, effort, timed.time("slow", "nominal").slack, None)
-    guard_ns = RESIZE_GUARD_NS
+    guard_ns, engine = RESIZE_GUARD_NS, 0
     for number in range(RESIZE_ROUNDS):
-        resized = timed.resize(number > 0, guard_ns)
+        resized = timed.resize(number > 0, guard_ns, engine)
         if number > 0 and not resized.changed:
             break
         early = timed.time("fast", "margins", "early")
         report = timed.time("slow", "nominal", "margins", "spare", pins=timed.early_pins(early))
         if report.margin().slack >= 0:
             break
-        guard_ns = RESIZE_GUARD_NS + max(resized.slack - report.margin().slack, 0.0)  # what other engines have less
+        late = timed.engine_of(report.margin())
+        # Of the same engine, the whole array may have less slack than the part that was examined.
+        guard_ns = RESIZE_GUARD_NS + (max(resized.slack - report.margin().slack, 0.0) if late == engine else 0.0)
+        engine = late
     return _Attempt(timed, effort, report.slack, report.margin(), early, report.spare)
 
 
@@ -492,7 +505,8 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         fast = timed.fix_hold(given(best.early, "the fast corner was not timed"), best.spare)
         slow = timed.time("slow", "nominal", "closing", "margins")
         for _ in range(CLOSING_ROUNDS):
-            if slow.margin().slack >= 0 or not timed.resize(True, RESIZE_GUARD_NS - slow.margin().slack).changed:
+            if slow.margin().slack >= 0 or not timed.resize(
+                    True, RESIZE_GUARD_NS - slow.margin().slack, timed.engine_of(slow.margin())).changed:
                 break
             fast = timed.fix_hold(timed.time("fast", "margins", "early"), best.spare)
             slow = timed.time("slow", "nominal", "closing", "margins")

@@ -10,7 +10,7 @@ from typing import cast
 from unittest import mock
 
 from dtof_synth import library, run, spef, standard_cells, timing
-from dtof_synth.configuration import Configuration
+from dtof_synth.configuration import Configuration, load
 from dtof_synth.floorplan import Floorplan
 
 from .partial import part_of
@@ -54,11 +54,14 @@ class _Recorder:
         self.asked.append((corner, *steps))
         return SimpleNamespace(slack=0.2, margin=lambda: MARGIN, early=[], spare={})
 
-    def resize(self, again: bool, guard_ns: float) -> run.Resized:
+    def resize(self, again: bool, guard_ns: float, engine: int) -> run.Resized:
         return run.Resized(False, 0.0)
 
     def early_pins(self, _) -> list[str]:
         return []
+
+    def engine_of(self, _) -> int:
+        return 0
 
     def netlist(self) -> run._Netlist:
         """The recorder for code that takes a netlist."""
@@ -82,7 +85,7 @@ class Repairs(unittest.TestCase):
                 report.margin = lambda: replace(MARGIN, slack=-0.1)
                 return report
 
-            def resize(self, again: bool, guard_ns: float) -> run.Resized:
+            def resize(self, again: bool, guard_ns: float, engine: int) -> run.Resized:
                 self.guards.append(guard_ns)
                 return run.Resized(next(self.changes), 0.03)
 
@@ -92,6 +95,36 @@ class Repairs(unittest.TestCase):
         # The first engine had 0.03 ns to spare where the array missed by 0.1: as much more is asked of it then.
         self.assertEqual([round(guard, 6) for guard in recorder.guards], [0.004, 0.134, 0.134])
         self.assertFalse(attempt.closes_with_margins)
+
+    def test_the_engine_of_the_slowest_path_is_resized_next(self) -> None:
+        class Elsewhere(_Recorder):
+            engines: list[tuple[int, float]] = []
+
+            def time(self, corner: str, *steps: str, **settings) -> SimpleNamespace:
+                report = super().time(corner, *steps, **settings)
+                report.margin = lambda: replace(MARGIN, slack=-0.1)
+                return report
+
+            def resize(self, again: bool, guard_ns: float, engine: int) -> run.Resized:
+                self.engines.append((engine, round(guard_ns, 6)))
+                return run.Resized(len(self.engines) < 3, 0.03)
+
+            def engine_of(self, _) -> int:
+                return 2
+
+        recorder = Elsewhere()
+        run._timed(recorder.netlist(), 0)
+        # That engine has not been examined yet, so nothing is known of what it has less.
+        self.assertEqual(recorder.engines, [(0, 0.004), (2, 0.004), (2, 0.134)])
+
+    def test_the_ends_of_a_path_tell_its_engine(self) -> None:
+        pool = load(Path(__file__).resolve().parents[2] / "configurations.toml")["poolpointer"]
+        timed = part_of(run._Netlist, configuration=pool)
+        for start, end, engine in (("received[145]", "g_quad[14].u_quad/g_pair[1].u_pair.leader_cell_q[0]", 1), ("received[1]", "g_quad[0].u_quad/u_sram", 0),
+                                   ("g_quad[49].u_quad/u_sram", "u_parity_store.accessed_q[3]", 5), ("rst_ni", "g_engine[3].u_engine/above_valid_q", 3),
+                                   ("start_i", "u_controller.state_q[0]", 0)):
+            with self.subTest(end=end):
+                self.assertEqual(run._Netlist.engine_of(timed, replace(MARGIN, start=start, end=end)), engine)
 
     def test_hold_is_mended_until_the_fast_corner_has_no_early_path(self) -> None:
         class TooEarly(_Recorder):

@@ -166,9 +166,12 @@ class _Finished:
         slack = self.slacks.pop(0) if corner == "slow" else 0.0
         return SimpleNamespace(margin=lambda: replace(MARGIN, slack=slack), timing=lambda: replace(TIMING, start=corner), output=corner)
 
-    def resize(self, again: bool, guard_ns: float) -> run.Resized:
-        self.done.append(("resize", again, round(guard_ns, 6)))
+    def resize(self, again: bool, guard_ns: float, engine: int) -> run.Resized:
+        self.done.append(("resize", again, round(guard_ns, 6), engine))
         return run.Resized(self.changes.pop(0), 0.0)
+
+    def engine_of(self, _) -> int:
+        return 3
 
     def fix_hold(self, report, spare) -> timing.Margin:
         self.done.append(("hold", report.output, spare))
@@ -240,12 +243,12 @@ class Run(InFolder):
 
     def test_what_hold_buffers_take_is_won_back_in_at_most_two_rounds(self) -> None:
         _, done = self.finish(slacks=(-0.02, -0.01, 0.0), changes=(True, True))
-        self.assertEqual(done[1:7], [self.NOMINAL, ("resize", True, 0.024), self.EARLY, ("hold", "fast", {"pin": 0.5}), self.NOMINAL,
-                                     ("resize", True, 0.014)])
+        self.assertEqual(done[1:7], [self.NOMINAL, ("resize", True, 0.024, 3), self.EARLY, ("hold", "fast", {"pin": 0.5}), self.NOMINAL,
+                                     ("resize", True, 0.014, 3)])
         _, done = self.finish(slacks=(-0.02, -0.01, -0.005), changes=(True, True))
         self.assertEqual([step for step in done if step == self.NOMINAL], [self.NOMINAL] * 3)
         _, done = self.finish(slacks=(-0.02,), changes=(False,))
-        self.assertEqual(done[1:4], [self.NOMINAL, ("resize", True, 0.024), ("logic",)])
+        self.assertEqual(done[1:4], [self.NOMINAL, ("resize", True, 0.024, 3), ("logic",)])
 
     def test_one_corner_has_neither_margins_nor_power(self) -> None:
         found, done = self.finish(corners=("slow",))
