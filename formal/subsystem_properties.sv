@@ -19,12 +19,6 @@ module subsystem_properties #(
     parameter int CONFIDENCE_WIDTH = 2,
     parameter int POINTER_PORTS = 2,
     parameter int PRIOR = 0,
-    parameter int LABELS = 5,
-    parameter int COARSE_END = 1,  // of poolPointer, as TRACK_END
-    parameter int TRACK_END = 2,
-    parameter int FIRST_TIME = 0,  // of poolPointer: a timestamp is one of three codes, or no detection; SECOND_TIME, THIRD_TIME: the others
-    parameter int SECOND_TIME = 0,
-    parameter int THIRD_TIME = 0,
     parameter int CLOCK_WAITS = 1,
     parameter int BUFFER_LINES = 2,
     parameter int MOST_CLOCKS = 62,  // from the first write to the end of two frames, without any waits
@@ -39,6 +33,8 @@ module subsystem_properties #(
 
   localparam int POOL = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 1 : 0;
   localparam int SIDE_BAND = (1 << (NB - 1)) + 1;  // of hisPointer, with the default of NP = 3
+  localparam int COARSE_END = 1;  // of poolPointer, as TRACK_END
+  localparam int TRACK_END = 2;
   localparam int FRAMES = 2;
   localparam int ACQUISITION_LINES = ROWS * SLOTS;
   localparam int FRAME_LINES = ACQUISITIONS * ACQUISITION_LINES;
@@ -81,7 +77,7 @@ module subsystem_properties #(
         end
         default: begin
           paddr = dtof_registers_pkg::OUTPUT;
-          pwdata = (32'(PRIOR) << dtof_registers_pkg::OUTPUT_PRIOR_LSB) | (32'd1 << dtof_registers_pkg::OUTPUT_SMOOTH_LSB);
+          pwdata = 32'(PRIOR) << dtof_registers_pkg::OUTPUT_PRIOR_LSB;
         end
       endcase
     end
@@ -103,22 +99,6 @@ module subsystem_properties #(
       waits_q <= waits_q + 1'b1;
     end
   end
-
-  // poolPointer's source selects each timestamp from few codes.
-  logic [TDATA_WIDTH-1:0] line;
-  genvar t;
-  generate
-    if (POOL != 0) begin : g_selected
-      for (t = 0; t < COLUMNS; t = t + 1) begin : g_timestamp
-        logic [1:0] choice;
-        assign choice = s_tdata_i[t*NP+:2];
-        assign line[t*NP+:NP] = (choice == 2'd0) ? {NP{1'b1}} : (choice == 2'd1) ? NP'(FIRST_TIME)
-            : (choice == 2'd2) ? NP'(SECOND_TIME) : NP'(THIRD_TIME);
-      end
-    end else begin : g_any
-      assign line = s_tdata_i;
-    end
-  endgenerate
 
   // Lines are counted when the source delivers them.
   logic s_tlast, taken;
@@ -162,7 +142,11 @@ module subsystem_properties #(
       .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
       .POINTER_PORTS   (POINTER_PORTS),
       .ACQ_WIDTH       ((POOL != 0) ? 4 : 2),
-      .LABELS          (LABELS),
+      .LABELS          (2),
+      .SCORE_BITS      (1),
+      .OFFSET_BITS     (0),
+      .ADVANTAGE_WIDTH (4),
+      .POINTER_SHIFT   (0),
       .PRIOR           (PRIOR),
       .ENGINE_COLUMNS  (2),
       .BROADCAST_STAGES(1),
@@ -187,7 +171,7 @@ module subsystem_properties #(
       .shot_o         (shot),
       .s_axis_tvalid_i(s_tvalid),
       .s_axis_tready_o(s_tready),
-      .s_axis_tdata_i (line),
+      .s_axis_tdata_i (s_tdata_i),
       .s_axis_tlast_i (s_tlast),
       .m_axis_tvalid_o(m_tvalid),
       .m_axis_tready_i(m_tready),
@@ -225,60 +209,13 @@ module subsystem_properties #(
     end
   end
 
-  // poolPointer's rule needs whole acquisitions: the lines before are kept until the last one comes.
-  localparam int WORDS = ROWS * COLUMNS;
-  genvar f, r, c, l;
+  // The words of both frames that the rule gives for the lines at the source.
+  genvar f, r, c;
   generate
-    if (POOL != 0) begin : g_pool
-      logic [(ACQUISITION_LINES-1)*COLUMNS*NP-1:0] before_q;
-      logic [ACQUISITION_LINES*COLUMNS*NP-1:0] lines;
-      logic [WORDS*SLOTS*NP-1:0] timestamps;
-      logic [FRAMES*WORDS*32-1:0] positions, confidences;
-      logic [(FRAMES+1)*LABELS-1:0] used;
-      logic [(FRAMES+1)*LABELS*32-1:0] cells;
-
-      always_ff @(posedge clk_i) begin
-        if (taken) begin
-          before_q <= lines[COLUMNS*NP+:(ACQUISITION_LINES-1)*COLUMNS*NP];
-        end
-      end
-      assign lines = {line[COLUMNS*NP-1:0], before_q};
-      for (c = 0; c < COLUMNS; c = c + 1) begin : g_column
-        for (l = 0; l < ACQUISITION_LINES; l = l + 1) begin : g_line
-          assign timestamps[(c*ACQUISITION_LINES+l)*NP+:NP] = lines[(l*COLUMNS+c)*NP+:NP];
-        end
-      end
-      assign used[0+:LABELS] = '0;  // no prior in the first frame after reset
-      assign cells[0+:LABELS*32] = '0;
-      for (f = 0; f < FRAMES; f = f + 1) begin : g_frame
-        pool_pointer_reference #(
-            .NP          (NP),
-            .ROWS        (ROWS),
-            .COUNT_WIDTH (COUNT_WIDTH),
-            .LABELS      (LABELS),
-            .ACQUISITIONS(ACQUISITIONS),
-            .COARSE_END  (COARSE_END),
-            .TRACK_END   (TRACK_END)
-        ) u_reference (
-            .clk_i        (clk_i),
-            .rst_ni       (checking),
-            .take_i       (taken && s_tlast && 32'(source_frame_q) == f),
-            .acquisition_i(32'(acquisition_q)),
-            .timestamps_i (timestamps),
-            .used_i       ((PRIOR != 0) ? used[f*LABELS+:LABELS] : '0),
-            .used_cells_i (cells[f*LABELS*32+:LABELS*32]),
-            .positions_o  (positions[f*WORDS*32+:WORDS*32]),
-            .confidences_o(confidences[f*WORDS*32+:WORDS*32]),
-            .used_o       (used[(f+1)*LABELS+:LABELS]),
-            .cells_o      (cells[(f+1)*LABELS*32+:LABELS*32])
-        );
-      end
-    end
-
     for (f = 0; f < FRAMES; f = f + 1) begin : g_frame
       for (r = 0; r < ROWS; r = r + 1) begin : g_row
         for (c = 0; c < COLUMNS; c = c + 1) begin : g_column
-          localparam int PLACE = f * WORDS + ((POOL != 0) ? c * ROWS + r : r * COLUMNS + c);
+          localparam int PLACE = (f * ROWS + r) * COLUMNS + c;
           logic mine;
           logic [31:0] position, confidence;
           assign mine = taken && 32'(source_frame_q) == f && 32'(line_q) >= r * SLOTS && 32'(line_q) < (r + 1) * SLOTS;
@@ -293,7 +230,7 @@ module subsystem_properties #(
                 .rst_ni       (checking),
                 .take_i       (mine),
                 .acquisition_i(32'(acquisition_q)),
-                .timestamp_i  (32'(line[c*NP+:NP])),
+                .timestamp_i  (32'(s_tdata_i[c*NP+:NP])),
                 .position_o   (position),
                 .confidence_o (confidence)
             );
@@ -310,28 +247,25 @@ module subsystem_properties #(
                 .rst_ni       (checking),
                 .take_i       (mine),
                 .acquisition_i(32'(acquisition_q)),
-                .timestamp_i  (32'(line[c*NP+:NP])),
+                .timestamp_i  (32'(s_tdata_i[c*NP+:NP])),
                 .position_o   (position),
                 .confidence_o (confidence)
             );
           end
 
-          if (POOL != 0) begin : g_pool_pointer
-            assign position = g_pool.positions[(f*WORDS+c*ROWS+r)*32+:32];
-            assign confidence = g_pool.confidences[(f*WORDS+c*ROWS+r)*32+:32];
+          if (POOL == 0) begin : g_value
+            result_word_rules #(
+                .COLUMN          (c),
+                .ROW             (r),
+                .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)
+            ) u_rules (
+                .checking    (checking),
+                .here_i      (m_tvalid && 32'(sink_word_q) == PLACE),
+                .tdata_i     (m_tdata),
+                .position_i  (position),
+                .confidence_i(confidence)
+            );
           end
-
-          result_word_rules #(
-              .COLUMN          (c),
-              .ROW             (r),
-              .CONFIDENCE_WIDTH((POOL != 0) ? 16 : CONFIDENCE_WIDTH)
-          ) u_rules (
-              .checking    (checking),
-              .here_i      (m_tvalid && 32'(sink_word_q) == PLACE),
-              .tdata_i     (m_tdata),
-              .position_i  (position),
-              .confidence_i(confidence)
-          );
         end
       end
     end
