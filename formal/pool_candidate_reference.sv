@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference of a candidate of poolPointer's decode (docs/reference/poolpointer.md, "Decode", "Significance"): the candidate of the sums w,
-// and the sums for the next candidate. In 32-bit integers.
+// and the sums for the next candidate. In signed integers of W bits.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module pool_candidate_reference #(
+    parameter int W = 18,
     parameter int ACQUISITIONS = 3,
     parameter int MISSING = 4,
     parameter int STORED_BITS = 2,  // bits of the significance that the group's word stores, 2 or 3
     localparam int PAIRS = 31
 ) (
-    input  logic [PAIRS*32-1:0] w_i,
-    input  logic [PAIRS*32-1:0] w_before_i,      // w'
+    input  logic [PAIRS*W-1:0] w_i,
+    input  logic [PAIRS*W-1:0] w_before_i,      // w'
     input  logic [PAIRS-1:0]    taken_i,
     input  logic [PAIRS-1:0]    raised_i,        // pairs with PRIOR_WEIGHT
-    input  logic [31:0]         lowest_i,        // m
-    output logic [PAIRS*32-1:0] w_o,
+    input  logic [W-1:0]         lowest_i,        // m
+    output logic [PAIRS*W-1:0] w_o,
     output logic [PAIRS-1:0]    taken_o,
-    output logic [31:0]         cell_o,
-    output logic [31:0]         significance_o
+    output logic [W-1:0]         cell_o,
+    output logic [W-1:0]         significance_o
 );
 
   // Eight times the logarithm to base 2: 8 e + m.
-  function automatic logic signed [31:0] lg(input logic [31:0] x);
+  function automatic logic signed [W-1:0] lg(input logic [W-1:0] x);
     integer e;
     lg = 0;
     for (e = 0; e < 16; e = e + 1) begin
@@ -31,8 +32,8 @@ module pool_candidate_reference #(
     end
   endfunction
 
-  logic signed [31:0] place;  // i
-  logic [31:0] highest;
+  logic signed [W-1:0] place;  // i
+  logic [W-1:0] highest;
   logic prior;
   integer i;
 
@@ -41,31 +42,31 @@ module pool_candidate_reference #(
     highest = 32'd0;
     prior = 1'b0;
     for (i = 0; i < PAIRS; i = i + 1) begin
-      if (!taken_i[i] && (place < 0 || w_i[32*i+:32] > highest)) begin
+      if (!taken_i[i] && (place < 0 || w_i[W*i+:W] > highest)) begin
         place = i;
-        highest = w_i[32*i+:32];
+        highest = w_i[W*i+:W];
         prior = raised_i[i];
       end
     end
   end
 
   // Sums beside it, 0 beyond either end.
-  logic [31:0] one_below, one_above, three_below, four_below, three_above, four_above;
+  logic [W-1:0] one_below, one_above, three_below, four_below, three_above, four_above;
   integer j;
 
   always_comb begin
     {one_below, one_above, three_below, four_below, three_above, four_above} = '0;
     for (j = 0; j < PAIRS; j = j + 1) begin
-      if (place == j + 1) one_below = w_i[32*j+:32];
-      if (place == j - 1) one_above = w_i[32*j+:32];
-      if (place == j + 3) three_below = w_i[32*j+:32];
-      if (place == j + 4) four_below = w_i[32*j+:32];
-      if (place == j - 3) three_above = w_before_i[32*j+:32];
-      if (place == j - 4) four_above = w_before_i[32*j+:32];
+      if (place == j + 1) one_below = w_i[W*j+:W];
+      if (place == j - 1) one_above = w_i[W*j+:W];
+      if (place == j + 3) three_below = w_i[W*j+:W];
+      if (place == j + 4) four_below = w_i[W*j+:W];
+      if (place == j - 3) three_above = w_before_i[W*j+:W];
+      if (place == j - 4) four_above = w_before_i[W*j+:W];
     end
   end
 
-  logic signed [31:0] tilt, height;
+  logic signed [W-1:0] tilt, height;
 
   always_comb begin
     tilt = one_above - one_below;
@@ -75,7 +76,7 @@ module pool_candidate_reference #(
     if (height > 0 && -(tilt <<< 1) > height) cell_o = ((place + 1) << 2) - 1;
   end
 
-  logic signed [31:0] around, above, level, offset;  // S, D
+  logic signed [W-1:0] around, above, level, offset;  // S, D
 
   always_comb begin
     around = three_below + four_below + three_above + four_above;
@@ -91,14 +92,14 @@ module pool_candidate_reference #(
   end
 
   // Its pulse leaks into the pairs two places away.
-  logic [31:0] excess;
+  logic [W-1:0] excess;
   integer n;
 
   always_comb begin
     excess = (highest > lowest_i) ? ((highest - lowest_i) >> 3) : 32'd0;
     for (n = 0; n < PAIRS; n = n + 1) begin
-      w_o[32*n+:32] = w_i[32*n+:32];
-      if (place == n + 2 || place == n - 2) w_o[32*n+:32] = (w_i[32*n+:32] > excess) ? w_i[32*n+:32] - excess : 32'd0;
+      w_o[W*n+:W] = w_i[W*n+:W];
+      if (place == n + 2 || place == n - 2) w_o[W*n+:W] = (w_i[W*n+:W] > excess) ? w_i[W*n+:W] - excess : 32'd0;
       taken_o[n] = taken_i[n] || (place >= n - 1 && place <= n + 1);
     end
   end

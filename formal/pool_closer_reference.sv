@@ -4,22 +4,24 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module pool_closer_reference (
-    input  logic signed [31:0] centre_i,
-    input  logic [3*32-1:0]    beside_i,   // above, below, left
+module pool_closer_reference #(
+    parameter int W = 18
+) (
+    input  logic signed [W-1:0] centre_i,
+    input  logic [3*W-1:0]    beside_i,   // above, below, left
     input  logic [2:0]         present_i,
-    input  logic signed [31:0] reach_i,    // T
+    input  logic signed [W-1:0] reach_i,    // T
     output logic [2:0]         near_o,
-    output logic signed [31:0] moved_o
+    output logic signed [W-1:0] moved_o
 );
 
-  logic signed [31:0] sum, away;
+  logic signed [W-1:0] sum, away;
   integer i;
 
   always_comb begin
     sum = 0;
     for (i = 0; i < 3; i = i + 1) begin
-      away = beside_i[32*i+:32] - centre_i;
+      away = beside_i[W*i+:W] - centre_i;
       near_o[i] = present_i[i] && away >= -reach_i && away <= reach_i;
       if (near_o[i]) sum = sum + away;
     end

@@ -6,6 +6,7 @@
 `default_nettype none
 
 module pool_pointer_reference #(
+    parameter int W = 18,
     parameter int NP = 8,
     parameter int ROWS = 2,
     parameter int COUNT_WIDTH = 7,
@@ -21,29 +22,29 @@ module pool_pointer_reference #(
     input  logic                   clk_i,
     input  logic                   rst_ni,
     input  logic                   take_i,         // an acquisition of this frame is complete
-    input  logic [31:0]            acquisition_i,
+    input  logic [W-1:0]            acquisition_i,
     input  logic [PIXELS*2*NP-1:0] timestamps_i,   // both of each pixel, the first one lowest
     input  logic [LABELS-1:0]      used_i,         // candidates of the last frame that were used; 0 without a prior
-    input  logic [LABELS*32-1:0]   used_cells_i,
-    output logic [PIXELS*32-1:0]   positions_o,
-    output logic [PIXELS*32-1:0]   confidences_o,
+    input  logic [LABELS*W-1:0]   used_cells_i,
+    output logic [PIXELS*W-1:0]   positions_o,
+    output logic [PIXELS*W-1:0]   confidences_o,
     output logic [LABELS-1:0]      used_o,
-    output logic [LABELS*32-1:0]   cells_o
+    output logic [LABELS*W-1:0]   cells_o
 );
 
   localparam int F = 16 - NP;
   localparam int NONE = (1 << NP) - 1;
-  localparam int COLUMN = ROWS * 32;
+  localparam int COLUMN = ROWS * W;
   localparam int MOST_COUNT = (1 << COUNT_WIDTH) - 1;
 
   // Timestamps of the acquisition as positions.
   logic [PIXELS-1:0] any, two, thinned;
-  logic [PIXELS*32-1:0] preferred, other;
+  logic [PIXELS*W-1:0] preferred, other;
 
   genvar p;
   generate
     for (p = 0; p < PIXELS; p = p + 1) begin : g_time
-      logic [31:0] first, second;
+      logic [W-1:0] first, second;
       logic has_first, has_second, swaps;
       assign first = 32'(timestamps_i[2*p*NP+:NP]);
       assign second = 32'(timestamps_i[(2*p+1)*NP+:NP]);
@@ -52,15 +53,15 @@ module pool_pointer_reference #(
       assign any[p] = has_first || has_second;
       assign two[p] = has_first && has_second;
       assign swaps = two[p] ? acquisition_i[0] : !has_first;
-      assign preferred[32*p+:32] = ((swaps ? second : first) << F) + 32'((1 << F) >> 1);
-      assign other[32*p+:32] = ((swaps ? first : second) << F) + 32'((1 << F) >> 1);
-      assign thinned[p] = acquisition_i < 32'd16 && 32'd0 < 32'd7 - (preferred[32*p+:32] >> 13);
+      assign preferred[W*p+:W] = ((swaps ? second : first) << F) + 32'((1 << F) >> 1);
+      assign other[W*p+:W] = ((swaps ? first : second) << F) + 32'((1 << F) >> 1);
+      assign thinned[p] = acquisition_i < 32'd16 && 32'd0 < 32'd7 - (preferred[W*p+:W] >> 13);
     end
   endgenerate
 
   // Coarse.
   logic [32*8-1:0] counts_q, counts;
-  logic [31:0] chosen;
+  logic [W-1:0] chosen;
   logic here;
   integer c, r, b;
 
@@ -70,10 +71,10 @@ module pool_pointer_reference #(
       for (r = 0; r < ROWS; r = r + 2) begin
         // The even row if the acquisition is even, and the other one if that row has no timestamp.
         here = any[c*ROWS+r];
-        chosen = preferred[32*(c*ROWS+r)+:32];
+        chosen = preferred[W*(c*ROWS+r)+:W];
         if (r + 1 < ROWS && any[c*ROWS+(r+1)%ROWS] && (acquisition_i[0] || !here)) begin
           here = 1'b1;
-          chosen = preferred[32*(c*ROWS+(r+1)%ROWS)+:32];
+          chosen = preferred[W*(c*ROWS+(r+1)%ROWS)+:W];
         end
         for (b = 0; b < 32; b = b + 1) begin
           if (here && (chosen >> 11) == 32'(b) && counts[8*b+:8] != 8'(MOST_COUNT)) counts[8*b+:8] = counts[8*b+:8] + 8'd1;
@@ -82,8 +83,8 @@ module pool_pointer_reference #(
     end
   end
 
-  logic [LABELS*32-1:0] significance;
-  logic [31:0] background;
+  logic [LABELS*W-1:0] significance;
+  logic [W-1:0] background;
   logic tilted;
 
   pool_decode_reference #(
@@ -102,8 +103,8 @@ module pool_pointer_reference #(
   );
 
   // Track.
-  logic [PIXELS*LABELS*32-1:0] scores_q, scores;
-  logic [PIXELS*32-1:0] leaders_q, offsets_q, leaders, offsets;
+  logic [PIXELS*LABELS*W-1:0] scores_q, scores;
+  logic [PIXELS*W-1:0] leaders_q, offsets_q, leaders, offsets;
 
   generate
     for (p = 0; p < PIXELS; p = p + 1) begin : g_track
@@ -111,24 +112,24 @@ module pool_pointer_reference #(
           .LABELS    (LABELS),
           .MOST_SCORE(MOST_SCORE)
       ) u_track (
-          .preferred_i (preferred[32*p+:32]),
-          .other_i     (other[32*p+:32]),
+          .preferred_i (preferred[W*p+:W]),
+          .other_i     (other[W*p+:W]),
           .two_i       (two[p]),
           .thinned_i   (thinned[p]),
           .cells_i     (cells_o),
           .background_i(background),
-          .scores_i    (scores_q[p*LABELS*32+:LABELS*32]),
-          .leader_i    (leaders_q[32*p+:32]),
-          .offset_i    (offsets_q[32*p+:32]),
-          .scores_o    (scores[p*LABELS*32+:LABELS*32]),
-          .leader_o    (leaders[32*p+:32]),
-          .offset_o    (offsets[32*p+:32])
+          .scores_i    (scores_q[p*LABELS*W+:LABELS*W]),
+          .leader_i    (leaders_q[W*p+:W]),
+          .offset_i    (offsets_q[W*p+:W]),
+          .scores_o    (scores[p*LABELS*W+:LABELS*W]),
+          .leader_o    (leaders[W*p+:W]),
+          .offset_o    (offsets[W*p+:W])
       );
     end
   endgenerate
 
   // Choose: the left column first.
-  logic [PIXELS*32-1:0] labels, cells_chosen, starts, first_pointers, first_rivals, first_advantages;
+  logic [PIXELS*W-1:0] labels, cells_chosen, starts, first_pointers, first_rivals, first_advantages;
 
   genvar g;
   generate
@@ -141,10 +142,10 @@ module pool_pointer_reference #(
       ) u_choose (
           .cells_i       (cells_o),
           .background_i  (background),
-          .scores_i      (scores_q[g*ROWS*LABELS*32+:ROWS*LABELS*32]),
+          .scores_i      (scores_q[g*ROWS*LABELS*W+:ROWS*LABELS*W]),
           .leaders_i     (leaders_q[g*COLUMN+:COLUMN]),
           .offsets_i     (offsets_q[g*COLUMN+:COLUMN]),
-          .right_scores_i(scores_q[ROWS*LABELS*32+:ROWS*LABELS*32]),
+          .right_scores_i(scores_q[ROWS*LABELS*W+:ROWS*LABELS*W]),
           .left_cells_i  ((g == 0) ? '0 : cells_chosen[0+:COLUMN]),
           .left_starts_i ((g == 0) ? '0 : starts[0+:COLUMN]),
           .labels_o      (labels[g*COLUMN+:COLUMN]),
@@ -162,13 +163,13 @@ module pool_pointer_reference #(
     for (k = 0; k < LABELS; k = k + 1) begin
       used_o[k] = 1'b0;
       for (i = 0; i < PIXELS; i = i + 1) begin
-        if (labels[32*i+:32] == 32'(k)) used_o[k] = 1'b1;
+        if (labels[W*i+:W] == 32'(k)) used_o[k] = 1'b1;
       end
     end
   end
 
   // Point. The first acquisition of the phase begins with what choose has found.
-  logic [PIXELS*32-1:0] pointers_q, rivals_q, advantages_q, pointers_before, rivals_before, advantages_before, pointers, rivals, advantages;
+  logic [PIXELS*W-1:0] pointers_q, rivals_q, advantages_q, pointers_before, rivals_before, advantages_before, pointers, rivals, advantages;
   logic begins;
   assign begins = acquisition_i == 32'(TRACK_END);
   assign pointers_before = begins ? first_pointers : pointers_q;
@@ -178,16 +179,16 @@ module pool_pointer_reference #(
   generate
     for (p = 0; p < PIXELS; p = p + 1) begin : g_point
       pool_point_reference u_point (
-          .preferred_i  (preferred[32*p+:32]),
-          .other_i      (other[32*p+:32]),
+          .preferred_i  (preferred[W*p+:W]),
+          .other_i      (other[W*p+:W]),
           .two_i        (two[p]),
           .acquisition_i(acquisition_i),
-          .pointer_i    (pointers_before[32*p+:32]),
-          .rival_i      (rivals_before[32*p+:32]),
-          .advantage_i  (advantages_before[32*p+:32]),
-          .pointer_o    (pointers[32*p+:32]),
-          .rival_o      (rivals[32*p+:32]),
-          .advantage_o  (advantages[32*p+:32])
+          .pointer_i    (pointers_before[W*p+:W]),
+          .rival_i      (rivals_before[W*p+:W]),
+          .advantage_i  (advantages_before[W*p+:W]),
+          .pointer_o    (pointers[W*p+:W]),
+          .rival_o      (rivals[W*p+:W]),
+          .advantage_o  (advantages[W*p+:W])
       );
     end
   endgenerate
@@ -203,21 +204,21 @@ module pool_pointer_reference #(
       if (acquisition_i < 32'(COARSE_END)) counts_q <= counts;
       for (q = 0; q < PIXELS; q = q + 1) begin
         if (acquisition_i >= 32'(COARSE_END) && acquisition_i < 32'(TRACK_END) && any[q]) begin
-          scores_q[q*LABELS*32+:LABELS*32] <= scores[q*LABELS*32+:LABELS*32];
-          leaders_q[32*q+:32] <= leaders[32*q+:32];
-          offsets_q[32*q+:32] <= offsets[32*q+:32];
+          scores_q[q*LABELS*W+:LABELS*W] <= scores[q*LABELS*W+:LABELS*W];
+          leaders_q[W*q+:W] <= leaders[W*q+:W];
+          offsets_q[W*q+:W] <= offsets[W*q+:W];
         end
         if (acquisition_i >= 32'(TRACK_END)) begin
-          pointers_q[32*q+:32] <= any[q] ? pointers[32*q+:32] : pointers_before[32*q+:32];
-          rivals_q[32*q+:32] <= any[q] ? rivals[32*q+:32] : rivals_before[32*q+:32];
-          advantages_q[32*q+:32] <= any[q] ? advantages[32*q+:32] : advantages_before[32*q+:32];
+          pointers_q[W*q+:W] <= any[q] ? pointers[W*q+:W] : pointers_before[W*q+:W];
+          rivals_q[W*q+:W] <= any[q] ? rivals[W*q+:W] : rivals_before[W*q+:W];
+          advantages_q[W*q+:W] <= any[q] ? advantages[W*q+:W] : advantages_before[W*q+:W];
         end
       end
     end
   end
 
   // Decide.
-  logic [PIXELS*32-1:0] winners, margins;
+  logic [PIXELS*W-1:0] winners, margins;
 
   generate
     for (g = 0; g < 2; g = g + 1) begin : g_decide

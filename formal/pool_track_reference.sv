@@ -1,49 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference of poolPointer's track phase (docs/reference/poolpointer.md, "Timestamps", "Thinning", "Track"): a pixel's word after an
-// acquisition in which the pixel has one or two timestamps. In 32-bit integers.
+// acquisition in which the pixel has one or two timestamps. In signed integers of W bits.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module pool_track_reference #(
+    parameter int W = 18,
     parameter int LABELS = 5,
     parameter int MOST_SCORE = 15
 ) (
-    input  logic signed [31:0]   preferred_i,  // P
-    input  logic signed [31:0]   other_i,
+    input  logic signed [W-1:0]   preferred_i,  // P
+    input  logic signed [W-1:0]   other_i,
     input  logic                 two_i,        // there is another timestamp
     input  logic                 thinned_i,    // P is thinned
-    input  logic [LABELS*32-1:0] cells_i,
-    input  logic [31:0]          background_i,
-    input  logic [LABELS*32-1:0] scores_i,
-    input  logic [31:0]          leader_i,
-    input  logic signed [31:0]   offset_i,
-    output logic [LABELS*32-1:0] scores_o,
-    output logic [31:0]          leader_o,
-    output logic signed [31:0]   offset_o
+    input  logic [LABELS*W-1:0] cells_i,
+    input  logic [W-1:0]          background_i,
+    input  logic [LABELS*W-1:0] scores_i,
+    input  logic [W-1:0]          leader_i,
+    input  logic signed [W-1:0]   offset_i,
+    output logic [LABELS*W-1:0] scores_o,
+    output logic [W-1:0]          leader_o,
+    output logic signed [W-1:0]   offset_o
 );
 
   // Lowest label whose window has x; LABELS if there is none.
-  function automatic logic [31:0] label_of(input logic signed [31:0] x, input logic [LABELS*32-1:0] cells);
+  function automatic logic [W-1:0] label_of(input logic signed [W-1:0] x, input logic [LABELS*W-1:0] cells);
     integer k;
-    logic signed [31:0] away;
+    logic signed [W-1:0] away;
     label_of = 32'(LABELS);
     for (k = LABELS - 1; k >= 0; k = k - 1) begin
-      away = (x >>> 9) - $signed(cells[32*k+:32]);
+      away = (x >>> 9) - $signed(cells[W*k+:W]);
       if (away >= -4 && away < 4) label_of = 32'(k);
     end
   endfunction
 
-  function automatic logic [31:0] of(input logic [LABELS*32-1:0] values, input logic [31:0] label);
+  function automatic logic [W-1:0] of(input logic [LABELS*W-1:0] values, input logic [W-1:0] label);
     integer k;
     of = 32'd0;
     for (k = 0; k < LABELS; k = k + 1) begin
-      if (label == 32'(k)) of = values[32*k+:32];
+      if (label == 32'(k)) of = values[W*k+:W];
     end
   endfunction
 
-  logic signed [31:0] x, e, step;
-  logic [31:0] label, leads;
+  logic signed [W-1:0] x, e, step;
+  logic [W-1:0] label, leads;
   integer k;
 
   always_comb begin
@@ -59,9 +60,9 @@ module pool_track_reference #(
     for (k = 0; k < LABELS; k = k + 1) begin
       if (background_i < 32'd4 || !thinned_i) begin
         if (of(scores_i, label) < 32'(MOST_SCORE)) begin
-          if (label == 32'(k)) scores_o[32*k+:32] = scores_i[32*k+:32] + 32'd1;
-        end else if (label != 32'(LABELS) && label != 32'(k) && scores_i[32*k+:32] != 32'd0) begin
-          scores_o[32*k+:32] = scores_i[32*k+:32] - 32'd1;
+          if (label == 32'(k)) scores_o[W*k+:W] = scores_i[W*k+:W] + 32'd1;
+        end else if (label != 32'(LABELS) && label != 32'(k) && scores_i[W*k+:W] != 32'd0) begin
+          scores_o[W*k+:W] = scores_i[W*k+:W] - 32'd1;
         end
       end
     end
