@@ -34,8 +34,7 @@ GATED_FLIP_FLOPS = FORMAL / "gated_clock.v"
 # Modules that harnesses instantiate beside the design.
 RULES = (
     "arbitrary_value", "axi_stream_rules", "axi_lite_rules", "apb_rules", "ez_pointer_reference", "his_pointer_reference",
-    "result_word_rules", "pool_pointer_reference", "pool_decode_reference", "pool_candidate_reference", "pool_track_reference", "pool_choose_reference",
-    "pool_point_reference", "pool_decide_reference", "pool_chain_reference", "pool_closer_reference",
+    "result_word_rules",
 )
 ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in the report, rounded up
 
