@@ -58,7 +58,7 @@ SubsystemBench::~SubsystemBench() {
   write_coverage(*context_);
 }
 
-void SubsystemBench::reset(bool source_too) {
+void SubsystemBench::reset(bool source_too, int clocks) {
   if (source_too) {
     source_.reset();
   }
@@ -73,7 +73,7 @@ void SubsystemBench::reset(bool source_too) {
   written_ = {.release = most_release()};
   committed_ = written_;
   *ports_.reset_n = 0;
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < clocks; ++i) {
     source_.drive();
     bus_.drive();
     *ports_.clock = 0;

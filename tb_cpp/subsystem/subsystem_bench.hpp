@@ -73,9 +73,9 @@ class SubsystemBench {
   [[nodiscard]] std::size_t buffer_lines() const { return buffer_lines_; }
   [[nodiscard]] bool axi_lite() const { return *ports_.axi_lite != 0; }
 
-  /// Two clocks of reset. The source drops its lines, or keeps them if it is in another reset domain
+  /// A reset of so many clocks. The source drops its lines, or keeps them if it is in another reset domain
   /// (`source_too` false).
-  void reset(bool source_too = true);
+  void reset(bool source_too = true, int clocks = 2);
   /// Runs one clock. Throws RtlError if a check fails.
   void clock();
   void clocks(std::uint64_t count);
@@ -84,7 +84,8 @@ class SubsystemBench {
 
   BusResponse read(std::uint32_t offset);
   BusResponse write(std::uint32_t offset, std::uint32_t data, std::uint8_t strobe = RegisterBus::kAllBytes);
-  /// Begins to write all bytes of a register; the following clocks complete the transfer.
+  /// Begins to read a register, or to write all its bytes; the following clocks complete the transfer.
+  void begin_read(std::uint32_t offset) { bus_.read(offset); }
   void begin_write(std::uint32_t offset, std::uint32_t data) {
     bus_.write(offset, data, RegisterBus::kAllBytes);
   }

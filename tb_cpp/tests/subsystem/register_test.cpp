@@ -203,6 +203,29 @@ TEST_P(Subsystem, ReadsBehindAResetWhatTheMapsSay) {
   }
 }
 
+// A reset of a single clock, the shortest, in any clock of an access. The bench refuses a response without a
+// request.
+TEST_P(Subsystem, ForgetsAnAccessInWhichAResetComes) {
+  CounterRandom random = this->random(6);
+  const std::uint32_t behind_reset = bench_.get(DTOF_ACQUISITIONS);
+  for (int round = 0; round < 60; ++round) {
+    SCOPED_TRACE(testing::Message() << "round " << round);
+    if (round % 2 == 0) {
+      bench_.begin_read(DTOF_ID);
+    } else {
+      bench_.begin_write(DTOF_ACQUISITIONS, behind_reset + 2);
+    }
+    bench_.clocks(random() % 8);
+    bench_.reset(true, 1);
+    bench_.clocks(5);
+    if (round % 4 < 2) {
+      ASSERT_EQ(bench_.get(DTOF_ACQUISITIONS), behind_reset);
+    }
+    bench_.set(DTOF_ACQUISITIONS, behind_reset + 1);
+    ASSERT_EQ(bench_.get(DTOF_ACQUISITIONS), behind_reset + 1);
+  }
+}
+
 TEST_P(Subsystem, RefusesWhatIsNotThere) {
   for (const std::uint32_t offset : {0x034U, 0x03CU, 0x150U, 0x800U, 0xFFCU}) {
     EXPECT_TRUE(bench_.read(offset).error) << offset;
