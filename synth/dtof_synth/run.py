@@ -24,6 +24,7 @@ TARGET_MHZ = 330.0
 RESIZED_COLUMNS = 10  # that resizing looks at where there are no engines
 KEPT_COLUMNS = 3  # the first, its neighbour and the last
 RESIZE_ROUNDS = 3  # a stand-in's load cells weigh what they did before resizing
+POOL_RESIZE_ROUNDS = 4  # each examines one engine
 RESIZE_GUARD_NS = 0.004  # of slack that resizing leaves for that
 HOLD_ROUNDS = 4  # in which paths that are too early get buffers
 CLOSING_ROUNDS = 2  # hold buffers may take more than what resizing has left
@@ -443,11 +444,11 @@ class _Attempt:
         return min(self.slack - DEMANDED_SLACK_NS, self.margin.slack if self.margin is not None else math.inf)
 
 
-def _timed(timed: _Netlist, effort: int) -> _Attempt:
+def _timed(timed: _Netlist, effort: int, rounds: int = RESIZE_ROUNDS) -> _Attempt:
     if timed.technology.fast is None:
         return _Attempt(timed, effort, timed.time("slow", "nominal").slack, None)
     guard_ns, engine = RESIZE_GUARD_NS, 0
-    for number in range(RESIZE_ROUNDS):
+    for number in range(rounds):
         resized = timed.resize(number > 0, guard_ns, engine)
         if number > 0 and not resized.changed:
             break
@@ -473,7 +474,7 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
         raise FlowError(f"{configuration.name}: {error}") from None
     timed = _Netlist(design, plan, configuration, technology, folder / f"effort{number}", mapped)
     timed.prepare()
-    return _timed(timed, number)
+    return _timed(timed, number, POOL_RESIZE_ROUNDS if configuration.is_pool else RESIZE_ROUNDS)
 
 
 def _attempts(configuration: Configuration, technology: Technology, folder: Path, most: int | None, naming: int) -> list[_Attempt]:
