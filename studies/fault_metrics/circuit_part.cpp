@@ -9,7 +9,9 @@ namespace {
 constexpr std::uint32_t kScratchParities = 4;  // dtof_pkg::POOL_SCRATCH_PARITIES
 constexpr std::string_view kParityStore = "u_parity_store.";
 
-bool contains(std::string_view name, std::string_view part) { return name.find(part) != std::string_view::npos; }
+bool contains(std::string_view name, std::string_view part) {
+  return name.find(part) != std::string_view::npos;
+}
 
 /// A dtof_sram; the parities of its words are in kParityStore.
 bool in_sram_of_quad(std::string_view name) { return contains(name, "g_quad[") && contains(name, "u_sram."); }
@@ -65,7 +67,8 @@ Repeated repeated_of_cell(std::string_view name) {
   if (contains(name, "g_engine[")) {
     return Repeated::kEngine;
   }
-  const bool in_column = contains(name, "g_column[") || contains(name, "g_quad[") || contains(name, kParityStore);
+  const bool in_column =
+      contains(name, "g_column[") || contains(name, "g_quad[") || contains(name, kParityStore);
   return in_column ? Repeated::kColumn : Repeated::kArray;
 }
 

@@ -35,8 +35,8 @@ std::string_view part_title(CircuitPart part);
 /// "$flatten\g_column[0].u_column.\u_result_register.$abc$1".
 CircuitPart part_of_cell(std::string_view name);
 
-/// Where the cell with this hierarchical name is. The store of a pool array's parities counts as a part of the columns, because most of it
-/// is there once for each SRAM.
+/// Where the cell with this hierarchical name is. The store of a pool array's parities counts as a part of
+/// the columns, because most of it is there once for each SRAM.
 Repeated repeated_of_cell(std::string_view name);
 
 /// Of an array with parity: how many bits of a word of this memory, which has `width` bits, are parities.

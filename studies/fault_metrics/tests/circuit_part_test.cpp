@@ -18,7 +18,8 @@ TEST(CircuitPart, FollowsTheInstancesOfTheName) {
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\u_sram.$abc$1"), CircuitPart::kMemoryControl);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\g_parity.u_word_parity.$abc$1"), CircuitPart::kParityCheck);
   EXPECT_EQ(part("$flatten\\g_parity.u_parity_store.$abc$1"), CircuitPart::kParityCheck);
-  EXPECT_EQ(part("$flatten\\g_engine[0].u_engine.\\u_scratch_sram.\\u_words.$abc$1"), CircuitPart::kMemoryControl);
+  EXPECT_EQ(part("$flatten\\g_engine[0].u_engine.\\u_scratch_sram.\\u_words.$abc$1"),
+            CircuitPart::kMemoryControl);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\g_pair[1].u_pair.$abc$1"), CircuitPart::kColumns);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.$abc$1"), CircuitPart::kMemoryControl);
   EXPECT_EQ(part("$flatten\\g_engine[0].u_engine.\\u_choose.$abc$1"), CircuitPart::kEngines);
@@ -39,7 +40,8 @@ TEST(CircuitPart, IsRepeatedWithItsColumnOrEngine) {
 }
 
 TEST(CircuitPart, KnowsWhichBitsOfAMemoryAreParities) {
-  EXPECT_EQ(parity_bits_of_memory("g_column[0].x.u_column.u_word_builder.u_word_sram.u_words.u_macro", 15), 1U);
+  EXPECT_EQ(parity_bits_of_memory("g_column[0].x.u_column.u_word_builder.u_word_sram.u_words.u_macro", 15),
+            1U);
   EXPECT_EQ(parity_bits_of_memory("g_engine[0].u_engine.u_scratch_sram.u_words.u_macro", 37), 4U);
   EXPECT_EQ(parity_bits_of_memory("g_quad[0].u_quad.u_sram.g_one_port.u_macro", 232), 0U);
   EXPECT_EQ(parity_bits_of_memory("g_parity.u_parity_store.u_parities.g_one_port.u_macro", 50), 50U);
