@@ -39,7 +39,7 @@ CircuitPart part_of_cell(std::string_view name);
 /// the columns, because most of it is there once for each SRAM.
 Repeated repeated_of_cell(std::string_view name);
 
-/// Of an array with parity: how many bits of a word of this memory, which has `width` bits, are parities.
+/// Number of parity bits in a word of this memory of an array with parity. `width`: bits of the word.
 std::uint32_t parity_bits_of_memory(std::string_view name, std::uint32_t width);
 
 }  // namespace dtof

@@ -457,7 +457,7 @@ def _timed(timed: _Netlist, effort: int, rounds: int = RESIZE_ROUNDS) -> _Attemp
         if report.margin().slack >= 0:
             break
         late = timed.engine_of(report.margin())
-        # Of the same engine, the whole array may have less slack than the part that was examined.
+        # The whole array may have less slack at this engine than the part that was examined.
         guard_ns = RESIZE_GUARD_NS + (max(resized.slack - report.margin().slack, 0.0) if late == engine else 0.0)
         engine = late
     return _Attempt(timed, effort, report.slack, report.margin(), early, report.spare)
