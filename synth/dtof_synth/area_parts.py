@@ -44,13 +44,8 @@ def parts(result: Result) -> Parts:
                  result.shared.buffer_area)
 
 
-def _macros(result: Result) -> Iterable[tuple[int, Size]]:
-    """(number in the array, size) for each kind of macro."""
-    return counted_macros(result.configuration)
-
-
 def _macro_total(result: Result, area: Callable[[Macro], float]) -> float:
-    return sum(number * area(sram_model.macro(size)) for number, size in _macros(result))
+    return sum(number * area(sram_model.macro(size)) for number, size in counted_macros(result.configuration))
 
 
 def _with_halo(macro: Macro) -> float:
@@ -79,12 +74,12 @@ def placed_with_all(result: Result) -> float:
 
 def doubtful_macros(results: Iterable[Result]) -> list[Size]:
     """Sizes of macros without a column multiplexer, or with words wider than the points of the fits."""
-    sizes = {size for result in results for _, size in _macros(result)}
+    sizes = {size for result in results for _, size in counted_macros(result.configuration)}
     return sorted(size for size in sizes if sram_model.macro(size).mux == 1 or size.bits > wide_words.FITTED_BITS)
 
 
 def lacks_mux(result: Result) -> bool:
-    return any(sram_model.macro(size).mux == 1 for _, size in _macros(result))
+    return any(sram_model.macro(size).mux == 1 for _, size in counted_macros(result.configuration))
 
 
 def total_with_other_mux(result: Result) -> float:
