@@ -15,7 +15,7 @@ from pathlib import Path
 from dtof_synth import program
 from dtof_synth.configuration import Configuration, load
 from dtof_synth.errors import FlowError
-from dtof_synth.run import rtl_files
+from dtof_synth.mapping import rtl_files
 
 ROOT = Path(__file__).resolve().parent.parent
 READOUTS = ("ezpointer", "hispointer", "poolpointer")

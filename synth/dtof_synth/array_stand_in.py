@@ -20,8 +20,9 @@ from . import tools
 from .endpoints import SIDE_BAND
 from .errors import FlowError, found_in
 from .liberty import THRESHOLDS, Group
-from .run import STAND_IN_LIBERTY, Result, Technology
+from .run import STAND_IN_LIBERTY, Result
 from .standard_cells import CINV_FF, FO4_NS
+from .technology import Technology
 from .timing import Netlist
 
 CELL = "array_stand_in"

@@ -15,7 +15,8 @@ from pathlib import Path
 
 from . import run_inputs
 from .configuration import Configuration
-from .run import BOTH_CORNERS, Result, Technology, run
+from .run import BOTH_CORNERS, Result, run
+from .technology import Technology
 
 
 NETLISTS = "netlists"  # folder of elaborated netlists
@@ -23,7 +24,7 @@ NETLISTS = "netlists"  # folder of elaborated netlists
 
 @dataclass(frozen=True)
 class Job:
-    """A configuration to run. With `most_attempts` 1 the first mapping counts, even if timing fails. `naming`: see run.map_to_cells."""
+    """A configuration to run. With `most_attempts` 1 the first mapping counts, even if timing fails. `naming`: see mapping.map_to_cells."""
 
     configuration: Configuration
     corners: tuple[str, ...] = BOTH_CORNERS

@@ -51,11 +51,13 @@ class Registers:
                     found[net] = max(number, found.get(net, 0))
         return found
 
-    def _row(self, register: str, most: int) -> list[str]:
-        """Registers in a row from this one on, as far as a register is all that follows."""
-        row = [register]
-        while len(row) < most and len(following := self.behind.get(self.output[row[-1]], [])) == 1 and following[0] not in row:
+    def _row(self, register: str, placed: Container[str], most: int) -> list[str]:
+        """Registers in a row from this one on that have no place yet, as far as a register is all that follows."""
+        row: list[str] = []
+        following = [register]
+        while len(row) < most and len(following) == 1 and following[0] not in row and following[0] not in placed:
             row += following
+            following = self.behind.get(self.output[row[-1]], [])
         return row
 
     def results(self, blocks: Mapping[int, float], placed: Container[str], centre_um: float, stages: int) -> dict[str, float]:
@@ -64,6 +66,6 @@ class Registers:
         found: dict[str, float] = {}
         for net, start in blocks.items():
             for register in self.behind.get(net, []):
-                row = self._row(register, stages - 2) if register not in placed else []
+                row = self._row(register, placed, stages - 2)
                 found |= {name: start + (centre_um - start) * number / (len(row) + 1) for number, name in enumerate(row, 1)}
         return found

@@ -17,7 +17,8 @@ from . import area_parts, batch, budgets, check, configuration, corner_ratios, e
 from . import technology as technologies
 from .configuration import Configuration
 from .errors import FlowError
-from .run import TARGET_MHZ, Result, Technology, flat
+from .run import Result, flat
+from .technology import TARGET_MHZ, Technology
 
 ROOT = Path(__file__).resolve().parents[2]
 BUDGETS = ROOT / "synth" / "budgets.csv"

@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from . import sram_kit, sram_model, standard_cells, technology
-from .run import Result, Technology, retimed
+from .run import Result, retimed
 from .standard_cells import SLOW, Corner
+from .technology import Technology
 
 GATES = SLOW.gate
 SRAMS = sram_model.ACCESS_SLOW_NS / sram_model.ACCESS_TYPICAL_NS

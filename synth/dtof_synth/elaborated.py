@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from . import configuration, growth, library, run, run_inputs, scene_power, signalled_clear, sram_kit, standard_cells, subsystem, tools
+from . import configuration, growth, library, mapping, run_inputs, scene_power, signalled_clear, sram_kit, standard_cells, subsystem, tools
 from . import technology as technologies
 from .canonical import canonical
 from .cli import ROOT, all_configurations
@@ -54,7 +54,7 @@ REPORTS: dict[str, Callable[[Named], list[Configuration]]] = {
 # ---- Elaboration -----------------------------------------------------------------------------------------
 
 def elaborate(item: Configuration, root: Path, folder: Path, whole_subsystem: bool = False) -> str:
-    """The canonical netlist of an array, as in run.elaborate, or of dtof_subsystem around it, as in subsystem.generic."""
+    """The canonical netlist of an array, as in mapping.elaborate, or of dtof_subsystem around it, as in subsystem.generic."""
     folder.mkdir(parents=True, exist_ok=True)
     liberty = folder / "slow.lib"
     liberty.write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
@@ -62,7 +62,7 @@ def elaborate(item: Configuration, root: Path, folder: Path, whole_subsystem: bo
     written = folder / "elaborated.il"
     script = root / "synth" / "yosys" / "elaborate.tcl"
     settings: dict[str, tools.Setting] = {
-        "scripts": root / "synth" / "yosys", "top": item.top, "rtl_files": list(run.rtl_files(root)), "rtl_include": root / "hdl" / "common",
+        "scripts": root / "synth" / "yosys", "top": item.top, "rtl_files": list(mapping.rtl_files(root)), "rtl_include": root / "hdl" / "common",
         "technology_files": list(technology_files), "black_boxes": black_boxes, "liberty": liberty, "parameters": dict(item.rtl_parameters()),
         "elaborated_netlist": written}
     if whole_subsystem:

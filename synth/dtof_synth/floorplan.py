@@ -225,7 +225,9 @@ def spread(plan: Floorplan, library: Library, pin_load: Callable[[str, str], flo
         rows = Registers(array, set(library.sequential))
         numbers = rows.numbers(copied, stages)
         outputs = {net: plan[name] for net, name in cell_of.items() if name in plan.blocks}
-        plan.places |= rows.results(outputs, plan.places, plan.centre_um, stages)
+        # A register that drives an output port of the array stays beside the shared logic, where the ports are.
+        at_ports = {cell_of[net] for port in array["ports"].values() if port["direction"] == "output" for net in port["bits"] if net in cell_of}
+        plan.places |= rows.results(outputs, plan.places.keys() | at_ports, plan.centre_um, stages)
     moved = copied | numbers.keys()
     order: list[int] = []
 

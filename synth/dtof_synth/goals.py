@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .run import TARGET_MHZ, Result
+from .run import Result
+from .technology import TARGET_MHZ
 from .timing import FAST_MHZ
 
 COLUMN_UM2 = {"ezpointer": 700.0}

@@ -12,7 +12,9 @@ from . import tools
 from .configuration import Configuration
 from .errors import FlowError
 from .goals import Goal
-from .run import Result, Technology, rtl_files
+from .mapping import rtl_files
+from .run import Result
+from .technology import Technology
 
 GOAL = 0.03  # of the array
 Size = tuple[int, int, int]  # lines of an acquisition, of the buffer, bits of a line

@@ -16,9 +16,10 @@ from pathlib import Path
 from . import configuration, sram_kit, sram_model
 from .configuration import Configuration, macro_sizes
 from .errors import FlowError
-from .run import TARGET_MHZ, rtl_files
+from .mapping import rtl_files
 from .sram_model import Macro
 from .standard_cells import SLOW, TYPICAL
+from .technology import TARGET_MHZ
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "orfs"

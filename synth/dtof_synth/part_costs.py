@@ -17,7 +17,8 @@ from pathlib import Path
 from . import activity, liberty, netlist, scene_power, sram_kit, sram_model
 from .activity import STREAMING
 from .configuration import Configuration, engine_memories, memories
-from .run import TARGET_MHZ, Technology, efforts, elaborate, map_to_cells
+from .mapping import efforts, elaborate, map_to_cells
+from .technology import TARGET_MHZ, Technology
 
 CONFIGURATION = "poolpointer"
 KEPT_MODULES = ("dtof_pool_column", "dtof_timestamp_input", "dtof_label_match", "dtof_pool_pixel_update", "dtof_pixel_distance", "dtof_pool_track_update",

@@ -10,21 +10,21 @@ from collections.abc import Iterable
 from dataclasses import astuple, dataclass, field
 from pathlib import Path
 
-from . import (clock_gating, endpoints, floorplan, loads, netlist, power, same_logic, spef, sram_kit, sram_model, stand_in,
+from . import (endpoints, floorplan, loads, netlist, power, same_logic, spef, sram_kit, sram_model, stand_in,
                standard_cells, timing, tools, verilog)
-from .canonical import canonical
-from .configuration import Configuration, bits_per_pixel, counted_macros, engine_memories, macro_sizes, memories, shared_memories
+from .configuration import Configuration, bits_per_pixel, counted_macros, engine_memories, memories, shared_memories
 from .errors import FlowError, given
 from .library import Library
+from .mapping import efforts, elaborate, map_to_cells
 from .netlist import Counts
 from .power import ClockTree, Power
+from .technology import TARGET_MHZ, Technology
 from .timing import Margin, Timing
 
-TARGET_MHZ = 330.0
 RESIZED_COLUMNS = 10  # that resizing looks at where there are no engines
 KEPT_COLUMNS = 3  # the first, its neighbour and the last
 RESIZE_ROUNDS = 3  # a stand-in's load cells weigh what they did before resizing
-POOL_RESIZE_ROUNDS = 4  # each examines one engine
+POOL_RESIZE_ROUNDS = 6  # each examines one engine
 RESIZE_GUARD_NS = 0.004  # of slack that resizing leaves for that
 HOLD_ROUNDS = 4  # in which paths that are too early get buffers
 CLOSING_ROUNDS = 2  # hold buffers may take more than what resizing has left
@@ -33,55 +33,7 @@ HOLD_BUFFER_SLOW_NS = 0.12  # at most, in the slow corner with margins
 DEMANDED_SLACK_NS = 0.1  # of a mapping in the slow corner: wires and a clock tree are still to come
 FINISHED_COLUMN = "finished_column.json"  # in the folder of a run
 BOTH_CORNERS = ("typical", "slow")
-_SCRIPTS = Path(__file__).resolve().parents[1] / "yosys"
 WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": floorplan.TYPICAL}
-
-
-@dataclass(frozen=True)
-class Effort:
-    """Effort of ABC: its delay target as a share of the period, and its scripts for the column (which occurs many times) and for the shared
-    logic. The rest of the period covers clock-to-data, setup, uncertainty and the late broadcast signals, which ABC does not model."""
-
-    share: float
-    column: str
-    shared: str
-
-
-_SIZING = "topo;buffer,-c;upsize,{D};dnsize,{D};stime,-p"
-_START = "+strash;ifraig;scorr;dc2"
-_BALANCE = "dch,-f;if,-g;strash"
-_MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
-_MAP_FROM_SMALL = "dch,-f;map,-B,0.7,{D};topo;strash;dch,-f;map,-B,0.7,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
-_AREA_MAP = "&get,-n;&syn3;&syn3;&dch,-f;&nf;&put"
-_SMALLEST = ";".join([_START, _BALANCE, _AREA_MAP, _SIZING])
-_SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
-_PAIR = ";".join([_START, _BALANCE, _MAP_FROM_SMALL, _SIZING])
-_FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
-# From small to fast; the first that closes timing with margins is taken. The larger parts of the pool read-outs become slower
-# as well as larger where ABC tries harder: what they miss is left to resizing.
-EFFORTS = (Effort(0.62, _SMALLEST, _FAST), Effort(0.62, _SMALL, _FAST), Effort(0.55, _FAST, _FAST))
-POOL_EFFORTS = (Effort(0.68, _PAIR, _SMALL), Effort(0.68, _FAST, _SMALL), Effort(0.68, _SMALL, _SMALL))
-LAYOUT_EFFORT = Effort(0.68, _SMALL, _SMALL)
-
-
-def efforts(configuration: Configuration) -> tuple[Effort, ...]:
-    return POOL_EFFORTS if configuration.is_pool else EFFORTS
-
-
-@dataclass(frozen=True)
-class Technology:
-    """Everything that a run needs besides the RTL. `slow`: library against which logic is mapped; `target_mhz`: clock for which it is
-    mapped. Without `fast` nothing is timed with margins."""
-
-    typical: Library
-    slow: Library
-    kit: Path
-    root: Path
-    target_mhz: float = TARGET_MHZ
-    fast: Library | None = None
-
-    def library(self, corner: str) -> Library:
-        return given({"typical": self.typical, "slow": self.slow, "fast": self.fast}[corner], f"no library for the {corner} corner")
 
 
 def _area(used: dict[str, sram_model.Size]) -> float:
@@ -135,83 +87,6 @@ class Result:
 
     def kge(self, area: float) -> float:
         return area / self.nand2_area / 1000
-
-
-def rtl_files(root: Path) -> list[Path]:
-    """RTL files of hdl/dtof.f without the behavioural technology; modules come after the modules that they contain."""
-    listing = root / "hdl" / "dtof.f"
-    try:
-        lines = listing.read_text(encoding="utf-8").splitlines()
-    except OSError as error:
-        raise FlowError(f"{listing}: cannot read the file list ({error.strerror})") from None
-    return [root / "hdl" / line for line in lines
-            if line.endswith((".sv", ".v")) and not line.startswith(("//", "technology/"))]
-
-
-def to_generic(root: Path, settings: Path, folder: Path, name: str) -> None:
-    """Turns the RTL that the settings name, below `root`, into `folder`/generic.il by way of `folder`/elaborated.il. Checks must pass."""
-    (folder / "elaborated.il").write_text(_elaborated(root, settings, folder, name), encoding="utf-8")
-    tools.run_yosys(_SCRIPTS / "generic.tcl", settings, folder / "generic.log", name)
-
-
-def _elaborated(root: Path, settings: Path, folder: Path, name: str) -> str:
-    tools.run_yosys(_SCRIPTS / "elaborate.tcl", settings, folder / "elaborate.log", name)
-    return canonical((folder / "elaborated.il").read_text(encoding="utf-8"), root)
-
-
-def elaborate(configuration: Configuration, technology: Technology, folder: Path, kept_modules: Iterable[str] = ()) -> None:
-    """Turns the RTL into the technology-independent netlist generic.il with clock gates. Checks must pass. `kept_modules` are not flattened
-    into their surroundings; columns, pairs and engines never are."""
-    to_generic(technology.root, _generic_settings(configuration, technology, folder, kept_modules), folder, configuration.name)
-    clock_gating.insert(folder / "generic.il", technology.slow)
-
-
-def elaborated(configuration: Configuration, technology: Technology, folder: Path) -> str:
-    """The netlist from which `elaborate` goes on: all that a run reads of the RTL."""
-    return _elaborated(technology.root, _generic_settings(configuration, technology, folder), folder, configuration.name)
-
-
-def _generic_settings(configuration: Configuration, technology: Technology, folder: Path, kept_modules: Iterable[str] = ()) -> Path:
-    folder.mkdir(parents=True, exist_ok=True)
-    scripts = technology.root / "synth" / "yosys"
-    settings = folder / "generic_settings.tcl"
-    # Only this configuration's macros: Yosys numbers what it reads, and mapping depends on the numbers by a few
-    # per cent, so another configuration's size would change this one's area.
-    black_boxes, *technology_files = sram_kit.write_rtl_views(
-        folder, macro_sizes(configuration))
-    tools.write_settings(settings, {
-        "scripts": scripts, "top": configuration.top,
-        "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "common",
-        "technology_files": technology_files, "black_boxes": black_boxes, "liberty": technology.slow.path,
-        "parameters": configuration.rtl_parameters(), "kept_modules": [f"*{name}*" for name in kept_modules],
-        "elaborated_netlist": folder / "elaborated.il", "generic_netlist": folder / "generic.il"})
-    return settings
-
-
-def map_to_cells(configuration: Configuration, technology: Technology, folder: Path, effort: Effort, naming: int = 0) -> dict:
-    """Maps generic.il to cells; returns the design. Checks must pass. `naming`: 0 keeps the names of cells and wires; another number
-    scrambles them, which changes ABC's result (namings.py)."""
-    library = technology.slow
-    inverter_ff = next(iter(library.input_ff[library.inverter].values()))
-    constraints = folder / "abc.constr"
-    constraints.write_text(f"set_driving_cell {library.inverter}\nset_load {4 * inverter_ff:.3f} [all_outputs]\n",
-                           encoding="utf-8")
-    scripts = technology.root / "synth" / "yosys"
-    settings = folder / "map_settings.tcl"
-    tools.write_settings(settings, {
-        "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
-        "abc_constraints": constraints, "abc_period_ps": f"{1e6 / technology.target_mhz * effort.share:.0f}",
-        "column_script": effort.column, "shared_script": effort.shared, "naming": str(naming),
-        "tie_low": list(library.tie.get("0", ())),
-        "tie_high": list(library.tie.get("1", ())), "netlist_json": folder / "mapped.json"})
-    tools.run_yosys(scripts / "map.tcl", settings, folder / "map.log", configuration.name)
-    design = json.loads((folder / "mapped.json").read_text(encoding="utf-8"))
-    netlist.rename_parts(design)
-    macros = {size.name for size in macro_sizes(configuration)}
-    foreign = netlist.foreign_cells(design, library, macros)
-    if foreign:
-        raise FlowError(f"{configuration.name}: unmapped cells in the netlist: {', '.join(sorted(foreign))}")
-    return design
 
 
 def _resize_settings(folder: Path, library: Library, guard_ns: float = RESIZE_GUARD_NS,
@@ -458,7 +333,7 @@ def _timed(timed: _Netlist, effort: int, rounds: int = RESIZE_ROUNDS) -> _Attemp
             break
         late = timed.engine_of(report.margin())
         # The whole array may have less slack at this engine than the part that was examined.
-        guard_ns = RESIZE_GUARD_NS + (max(resized.slack - report.margin().slack, 0.0) if late == engine else 0.0)
+        guard_ns = RESIZE_GUARD_NS + (max(resized.slack - report.margin().slack, 0.0) if late == engine else -report.margin().slack)
         engine = late
     return _Attempt(timed, effort, report.slack, report.margin(), early, report.spare)
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """All that the result of a run depends on, as a digest: a kept result serves as long as its digest is the same.
 
-A run reads the RTL by way of the elaborated netlist alone (run.elaborated). The mapper reads this netlist with its names and its order, which
+A run reads the RTL by way of the elaborated netlist alone (mapping.elaborated). The mapper reads this netlist with its names and its order, which
 influence ABC; the places in the source have gone from it before the digest is taken (canonical.py). So an edit of the RTL that leaves the
 netlist of a configuration as it is leaves its result as it is. The netlist also has Yosys's version. The other inputs are:
 
@@ -21,9 +21,9 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from . import readouts, report_inputs, run
+from . import mapping, readouts, report_inputs
 from .configuration import Configuration, engine_memories, macro_sizes, memories, shared_memories
-from .run import Technology
+from .technology import Technology
 
 _TEXT_ONLY = {"title", "enumerator", "summary", "style", "model", "choices", "defaults", "memories", "word"}  # of a read-out
 _EXPRESSIONS = ("passes", "bin_width", "scan_width", "decode_clocks")
@@ -66,7 +66,7 @@ class Inputs:
     sram_libraries: tuple[str, ...]
 
     def of(self, item: Configuration, netlist: str) -> str:
-        """The digest of all inputs of a run. `netlist`: of run.elaborated."""
+        """The digest of all inputs of a run. `netlist`: of mapping.elaborated."""
         used = {size.name for size in macro_sizes(item)}
         return _hash(self.digest, netlist, json.dumps(read_by_python(item, self.parameters), sort_keys=True),
                      *(srams(library, used) for library in self.sram_libraries))
@@ -82,7 +82,7 @@ def shared(technology: Technology) -> Inputs:
 
 def netlist(item: Configuration, technology: Technology, folder: Path) -> str:
     """Digest of the elaborated netlist. Files of the elaboration are left in the folder."""
-    return _hash(run.elaborated(item, technology, folder))
+    return _hash(mapping.elaborated(item, technology, folder))
 
 
 def everything(technology: Technology) -> str:

@@ -28,12 +28,13 @@ from . import technology as technologies
 from .batch import Job
 from .configuration import Configuration
 from .errors import FlowError
-from .run import TARGET_MHZ, Result, Technology, retimed
+from .report_inputs import ROOT
+from .run import Result, retimed
+from .technology import TARGET_MHZ, Technology
 from .timing import Timing
 
 from figures.small import is_small, written_root
 
-ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "scale"
 PROGRAM = ROOT / "build" / "cpp" / "bin" / "dtof"
 READOUTS = ("ezpointer", "hispointer", "poolpointer", "poolpointer_lean")

@@ -26,7 +26,9 @@ from .activity import OTHER, STREAMING, Activity
 from .configuration import Configuration, counted_macros, memories
 from .errors import FlowError, given
 from .library import Library
-from .run import FINISHED_COLUMN, TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells
+from .mapping import efforts, elaborate, map_to_cells
+from .run import FINISHED_COLUMN, Result
+from .technology import TARGET_MHZ, Technology
 
 CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer1", "hispointer", "sifh", "fifh", "threesteps", "pifh",
                   "histogram", "coarsehistogram", "poolpointer", "poolpointer_lean")

@@ -17,14 +17,14 @@ import sys
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from . import cell_models, liberty, library, netlist, run, tools, verilog
+from . import cell_models, liberty, library, mapping, netlist, tools, verilog
 from .errors import FlowError
 from .floorplan import pin_load
 from .library import Library
+from .report_inputs import ROOT
 
 from figures.small import written_root
 
-ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "shuttle"
 TECHNOLOGY = ROOT / "hdl" / "technology" / "ihp130"
 BUILD = ROOT / "build" / "shuttle"
@@ -97,7 +97,7 @@ def liberties(pdk: Path, folder: Path) -> dict[str, Path]:
 
 def sources() -> list[Path]:
     """RTL of a chip, modules after the modules that they contain."""
-    return [*sorted(TECHNOLOGY.glob("*.sv"), key=lambda path: path.name), *run.rtl_files(ROOT),
+    return [*sorted(TECHNOLOGY.glob("*.sv"), key=lambda path: path.name), *mapping.rtl_files(ROOT),
             *(ROOT / "fpga" / f"{name}.sv" for name in reversed(CORE_MODULES)), FOLDER / f"{TOP}.sv"]
 
 

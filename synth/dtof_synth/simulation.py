@@ -17,7 +17,8 @@ from pathlib import Path
 from . import cell_models, floorplan, liberty, netlist, sram_kit, tools
 from .configuration import Configuration, macro_sizes
 from .errors import FlowError
-from .run import Technology, efforts, elaborate, map_to_cells, rtl_files
+from .mapping import efforts, elaborate, map_to_cells, rtl_files
+from .technology import Technology
 
 VECTORS = Path("build/cpp/bin/dtof-vectors")
 BENCHES = Path("synth/simulation")

@@ -19,17 +19,20 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import astuple, dataclass
 from pathlib import Path
 
-from . import array_stand_in, clock_gating, endpoints, floorplan, loads, netlist, run, spef, sram_kit, subsystem_power, timing, tools, verilog
+from . import (array_stand_in, clock_gating, endpoints, floorplan, loads, mapping, netlist, run, spef, sram_kit, subsystem_power, timing, tools,
+               verilog)
 from .array_stand_in import MODES, Ports
 from .canonical import canonical
 from .configuration import Configuration, macro_sizes
 from .errors import FlowError, given
 from .library import Library
+from .mapping import Effort
 from .netlist import Counts
-from .run import Effort, Result, Technology
+from .run import Result
 from .standard_cells import CINV_FF, FO4_NS
-from .subsystem_power import SubsystemPower
 from .subsystem_ends import ARRAY, Ends, count_ends, judge_ends, pins_of_slow_edges, timed_ends
+from .subsystem_power import SubsystemPower
+from .technology import Technology
 from .timing import Margin
 
 TOP = "dtof_subsystem"
@@ -37,7 +40,7 @@ CONFIGURATIONS = ("ezpointer", "hispointer", "coarsehistogram", "poolpointer", "
 ARRAYS = ("dtof_array", "dtof_pool_pointer_array")
 CLOCK_GATE = "dtof_clock_gate"
 CORNERS = ("slow", "typical", "fast")
-EFFORTS = (run.LAYOUT_EFFORT, run.EFFORTS[-1])  # the first that closes with margins is taken, else the one that misses by least
+EFFORTS = (mapping.LAYOUT_EFFORT, mapping.EFFORTS[-1])  # the first that closes with margins is taken, else the one that misses by least
 HOLD_ROUNDS = 4
 RESIZE_ROUNDS = 3
 EDGE_ROUNDS = 4
@@ -144,7 +147,7 @@ def generic(configuration: Configuration, technology: Technology, folder: Path) 
     gate.write_text(clock_gate(technology.slow), encoding="utf-8")
     elaborated = folder / "elaborated.il"
     settings: dict[str, tools.Setting] = {
-        "scripts": root / "synth" / "yosys", "top": TOP, "rtl_files": list(run.rtl_files(root)), "rtl_include": root / "hdl" / "common",
+        "scripts": root / "synth" / "yosys", "top": TOP, "rtl_files": list(mapping.rtl_files(root)), "rtl_include": root / "hdl" / "common",
         "technology_files": [*technology_files, gate], "black_boxes": black_boxes, "liberty": technology.slow.path,
         "parameters": dict(parameters(configuration, root)), "array_modules": [f"*{name}" for name in ARRAYS],
         "elaborated_netlist": elaborated, "generic_netlist": folder / "generic.il"}

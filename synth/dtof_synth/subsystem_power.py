@@ -23,7 +23,8 @@ from .array_stand_in import Ports
 from .configuration import Configuration
 from .errors import FlowError, given
 from .library import Library
-from .run import TARGET_MHZ, Technology, rtl_files
+from .mapping import rtl_files
+from .technology import TARGET_MHZ, Technology
 
 BENCH = "dtof_subsystem_bench"
 SCENE, KLUX = "room", 50.0

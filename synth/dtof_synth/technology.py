@@ -5,16 +5,34 @@ from __future__ import annotations
 
 import gzip
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from . import library, sram_kit, sram_model, standard_cells
 from .configuration import Configuration, macro_sizes
-from .errors import FlowError
+from .errors import FlowError, given
 from .files import write_if_changed
-from .run import TARGET_MHZ, Technology
+from .library import Library
 from .sram_model import Macro, Size
 
 SIZES = "synth/sram_sizes.csv"
+TARGET_MHZ = 330.0
+
+
+@dataclass(frozen=True)
+class Technology:
+    """Everything that a run needs besides the RTL. `slow`: library against which logic is mapped; `target_mhz`: clock for which it is
+    mapped. Without `fast` nothing is timed with margins."""
+
+    typical: Library
+    slow: Library
+    kit: Path
+    root: Path
+    target_mhz: float = TARGET_MHZ
+    fast: Library | None = None
+
+    def library(self, corner: str) -> Library:
+        return given({"typical": self.typical, "slow": self.slow, "fast": self.fast}[corner], f"no library for the {corner} corner")
 
 
 def needed_sizes(configurations: list[Configuration]) -> dict[Size, list[str]]:

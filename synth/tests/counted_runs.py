@@ -7,7 +7,8 @@ from pathlib import Path
 from unittest import mock
 
 from dtof_synth import batch
-from dtof_synth.run import Result, Technology
+from dtof_synth.run import Result
+from dtof_synth.technology import Technology
 
 from .small_results import result
 

@@ -11,7 +11,7 @@ from unittest import mock
 from dtof_synth import batch, configuration, run_inputs
 from dtof_synth.configuration import Configuration
 from dtof_synth.errors import FlowError
-from dtof_synth.run import Technology
+from dtof_synth.technology import Technology
 
 from . import counted_runs
 from .partial import part_of

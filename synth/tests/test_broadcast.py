@@ -49,6 +49,9 @@ class Rows(unittest.TestCase):
     def test_a_register_that_has_a_place_keeps_it(self) -> None:
         self.assertEqual(rows(line=(50, 51), r1=(60, 61)).results({50: 0.0, 60: 0.0}, {"line": 0.0}, 100.0, 3), {"r1": 50.0})
 
+    def test_a_row_ends_in_front_of_a_register_that_has_a_place(self) -> None:
+        self.assertEqual(rows(r1=(50, 51), head=(51, 52)).results({50: 0.0}, {"head"}, 100.0, 5), {"r1": 50.0})
+
     def test_a_row_of_results_ends_where_it_forks_and_where_it_closes(self) -> None:
         self.assertEqual(rows(r1=(50, 51), r2=(51, 52), r3=(51, 53)).results({50: 0.0}, (), 100.0, 5), {"r1": 50.0})
         self.assertEqual(rows(r1=(50, 51), r2=(51, 50)).results({50: 0.0}, (), 90.0, 8), {"r1": 30.0, "r2": 60.0})
@@ -109,6 +112,21 @@ class Ways(WithLibrary):
                         self.assertLessEqual(abs(plan[name] - plan[source]), floorplan.REPEATER_UM + 1e-6, (name, source))
             for name, ff in load.items():
                 self.assertLessEqual(ff, next(iter(self.library.max_load_ff[top["cells"][name]["type"]].values())), name)
+
+    def test_a_register_in_front_of_a_port_stays_beside_the_shared_logic(self) -> None:
+        for port in (True, False):
+            design = array(320, 3)
+            top = netlist.top(design)
+            column = top["cells"]["g_column[0].u_column"]
+            column["connections"]["event"], column["port_directions"]["event"] = [901], "output"
+            top["cells"]["head"] = cell("DFF_X1", {"D": 901, "CK": 2}, {"Q": 902})
+            if port:
+                top["ports"]["event_o"] = {"direction": "output", "bits": [902]}
+            else:
+                top["cells"]["next"] = cell("DFF_X1", {"D": 902, "CK": 2}, {"Q": 903})
+            plan = Floorplan(design, 1)
+            floorplan.spread(plan, self.library, self.pin_load, {2}, stages=3)
+            self.assertEqual(plan["head"], plan.centre_um if port else (plan["g_column[0].u_column"] + plan.centre_um) / 2)
 
     def test_few_copies_serve_the_stretches(self) -> None:
         top, _, _ = self.spread(640, 6)

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import cell_models, clock_gating, liberty, library, netlist, run, standard_cells, tools
+from dtof_synth import cell_models, clock_gating, liberty, library, mapping, netlist, standard_cells, tools
 from dtof_synth.library import Library
 
 SYNTH = Path(__file__).resolve().parents[1]
@@ -53,7 +53,7 @@ class ClockGating(unittest.TestCase):
             "rtl_include": cls.folder, "kept_modules": [], "technology_files": [cls.folder / "none.v"], "black_boxes": cls.folder / "none.v",
             "liberty": cls.folder / "slow.lib", "parameters": {},
             "elaborated_netlist": cls.folder / "elaborated.il", "generic_netlist": cls.folder / "generic.il"})
-        run.to_generic(cls.folder, settings, cls.folder, "test")
+        mapping.to_generic(cls.folder, settings, cls.folder, "test")
         cls.gates = clock_gating.insert(cls.folder / "generic.il", cls.library)
         (cls.folder / "abc.constr").write_text("set_driving_cell INV_X1\nset_load 6 [all_outputs]\n", encoding="utf-8")
         tools.write_settings(settings, {

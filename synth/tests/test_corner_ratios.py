@@ -8,8 +8,9 @@ from types import SimpleNamespace
 from unittest import mock
 
 from dtof_synth import corner_ratios, liberty, sram_model, standard_cells
-from dtof_synth.run import Result, Technology
+from dtof_synth.run import Result
 from dtof_synth.sram_model import Size
+from dtof_synth.technology import Technology
 
 from .partial import part_of
 from .small_results import ROOT

@@ -6,9 +6,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import configuration, elaborated, library, run, standard_cells, subsystem
+from dtof_synth import configuration, elaborated, library, mapping, standard_cells, subsystem
 from dtof_synth.configuration import Configuration
-from dtof_synth.run import Technology
+from dtof_synth.technology import Technology
 
 from .partial import part_of
 from .small_results import ROOT
@@ -101,7 +101,7 @@ class AsTheFlow(unittest.TestCase):
         self.technology = part_of(Technology, root=ROOT, slow=library.read(liberty), target_mhz=330.0)
 
     def test_of_an_array(self) -> None:
-        run.elaborate(POINTER, self.technology, self.folder / "flow")
+        mapping.elaborate(POINTER, self.technology, self.folder / "flow")
         self.assertEqual(elaborated.elaborate(POINTER, ROOT, self.folder / "own"), (self.folder / "flow/elaborated.il").read_text(encoding="utf-8"))
 
     def test_of_the_subsystem(self) -> None:

@@ -5,7 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import run, sram_kit, standard_cells, tools
+from dtof_synth import mapping, sram_kit, standard_cells, tools
 from dtof_synth.errors import FlowError, found_in
 from dtof_synth.sram_model import Size
 
@@ -38,7 +38,7 @@ class FlowChecks(unittest.TestCase):
             "technology_files": [self.folder / "dtof_sram_1rw.sv", self.folder / "dtof_sram_1r1w.sv"],
             "black_boxes": self.folder / "sram40_blackbox.v", "liberty": self.folder / "slow.lib",
             "parameters": {}, "elaborated_netlist": self.folder / "elaborated.il", "generic_netlist": self.folder / "generic.il"})
-        run.to_generic(self.folder, settings, self.folder, "test")
+        mapping.to_generic(self.folder, settings, self.folder, "test")
 
     def sta(self, verilog: str, libraries: list[Path] | None = None) -> str:
         (self.folder / "netlist.v").write_text(verilog, encoding="utf-8")

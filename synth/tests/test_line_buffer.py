@@ -6,7 +6,7 @@ from pathlib import Path
 from dtof_synth import line_buffer, standard_cells
 from dtof_synth.errors import FlowError
 from dtof_synth.library import Library
-from dtof_synth.run import Technology
+from dtof_synth.technology import Technology
 
 from .partial import part_of
 from .small_results import ROOT, result

@@ -7,6 +7,7 @@ from pathlib import Path
 from unittest import mock
 
 from dtof_synth import batch, configuration, namings, run
+from dtof_synth.technology import Technology
 
 from .partial import part_of
 
@@ -27,7 +28,7 @@ class Efforts(unittest.TestCase):
             return part_of(run._Attempt, closes_with_margins=number in closing)
 
         with mock.patch.object(run, "_attempt", attempt):
-            run._attempts(configuration.load(ROOT / "configurations.toml")[name], part_of(run.Technology), Path(), most, naming)
+            run._attempts(configuration.load(ROOT / "configurations.toml")[name], part_of(Technology), Path(), most, naming)
         return tried
 
     def test_efforts_are_tried_until_one_closes(self) -> None:

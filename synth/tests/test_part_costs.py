@@ -7,9 +7,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
-from dtof_synth import activity, configuration, library, liberty, part_costs, run, sram_model, standard_cells
+from dtof_synth import activity, configuration, liberty, library, mapping, part_costs, sram_model, standard_cells
 from dtof_synth.activity import STREAMING, Activity, Energy, Scope
 from dtof_synth.sram_model import Size
+from dtof_synth.technology import Technology
 
 from .partial import part_of
 from .small_results import ROOT
@@ -62,12 +63,12 @@ class PartCosts(unittest.TestCase):
                     mock.patch.object(part_costs.scene_power, "small_case", return_value=case), \
                     mock.patch.object(part_costs.scene_power, "count_activity", return_value=Activity(scopes, {STREAMING: 100})), \
                     mock.patch.object(activity, "energy", return_value=Energy(nets=2000.0, sram=1000.0)):
-                parts = part_costs.measure(pool, part_of(run.Technology, typical=cells), Path(folder), 1, said.append)
+                parts = part_costs.measure(pool, part_of(Technology, typical=cells), Path(folder), 1, said.append)
             part_costs.write_csv(Path(folder) / "parts.csv", parts)
             lines = (Path(folder) / "parts.csv").read_text(encoding="utf-8").splitlines()
         self.assertEqual(elaborate.call_args.args[0], case.configuration)
         self.assertEqual(elaborate.call_args.args[3], part_costs.KEPT_MODULES)
-        self.assertEqual(map_to_cells.call_args.args[3], run.efforts(pool)[0])
+        self.assertEqual(map_to_cells.call_args.args[3], mapping.efforts(pool)[0])
         found = {(part.block, part.instance): part for part in parts}
         self.assertEqual(list(found), [("quad", ""), ("quad", "SRAM"), ("quad", "u_column"), ("quad", "u_distance"), ("quad", "u_match"),
                                        ("engine", ""), ("engine", "SRAM"), ("engine", "u_match")])

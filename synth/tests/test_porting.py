@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth.run import rtl_files
+from dtof_synth.mapping import rtl_files
 
 ROOT = Path(__file__).resolve().parents[2]
 PORTING = ROOT / "synth" / "porting"

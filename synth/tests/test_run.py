@@ -10,12 +10,13 @@ from types import SimpleNamespace
 from typing import cast
 from unittest import mock
 
-from dtof_synth import configuration, library, netlist, run, sram_model, standard_cells, timing
+from dtof_synth import configuration, library, mapping, netlist, run, sram_model, standard_cells, timing
 from dtof_synth.errors import FlowError
 from dtof_synth.floorplan import Floorplan
 from dtof_synth.netlist import Counts
 from dtof_synth.power import ClockTree
 from dtof_synth.sram_model import Size
+from dtof_synth.technology import Technology
 
 from .partial import part_of
 from .small_results import MARGIN, ROOT, TIMING, result
@@ -32,20 +33,20 @@ class InFolder(unittest.TestCase):
 
 
 class Mapping(InFolder):
-    TECHNOLOGY = part_of(run.Technology, root=ROOT, target_mhz=330.0, slow=part_of(
+    TECHNOLOGY = part_of(Technology, root=ROOT, target_mhz=330.0, slow=part_of(
         library.Library, inverter="INV_X1", input_ff={"INV_X1": {"A": 1.5}}, path=Path("slow.lib"), tie={"0": ("TIE0", "Y"), "1": ("TIE1", "Y")}))
 
     def settings(self, name: str, effort: int, naming: int = 0, foreign: frozenset = frozenset()) -> dict:
         (self.folder / "mapped.json").write_text("{}", encoding="utf-8")
         with mock.patch.object(run.tools, "write_settings") as written, mock.patch.object(run.tools, "run_yosys") as self.yosys, \
                 mock.patch.object(run.netlist, "rename_parts"), mock.patch.object(run.netlist, "foreign_cells", return_value=foreign) as self.cells:
-            run.map_to_cells(NAMED[name], self.TECHNOLOGY, self.folder, run.efforts(NAMED[name])[effort], naming)
+            mapping.map_to_cells(NAMED[name], self.TECHNOLOGY, self.folder, mapping.efforts(NAMED[name])[effort], naming)
         return written.call_args.args[1]
 
     def test_abc_gets_its_share_of_the_period(self) -> None:
         # 330 MHz are 3030.3 ps.
         for name, shares in (("ezpointer", (0.62, 0.62, 0.55)), ("poolpointer", (0.68, 0.68, 0.68))):
-            self.assertEqual(len(run.efforts(NAMED[name])), len(shares))
+            self.assertEqual(len(mapping.efforts(NAMED[name])), len(shares))
             for effort, share in enumerate(shares):
                 self.assertEqual(self.settings(name, effort)["abc_period_ps"], f"{3030.303 * share:.0f}")
 
@@ -63,10 +64,10 @@ class Mapping(InFolder):
         self.assertEqual(self.cells.call_args.args[2], {"sram_1rw_100x232", "sram_1rw_160x33"})
 
     def test_elaboration_sees_the_memories_of_this_configuration_alone(self) -> None:
-        with mock.patch.object(run.sram_kit, "write_rtl_views", return_value=["boxes", "one", "two"]) as views, \
-                mock.patch.object(run.tools, "write_settings") as written, mock.patch.object(run, "to_generic") as generic, \
-                mock.patch.object(run.clock_gating, "insert") as gates:
-            run.elaborate(NAMED["poolpointer"], self.TECHNOLOGY, self.folder / "new", ["part"])
+        with mock.patch.object(mapping.sram_kit, "write_rtl_views", return_value=["boxes", "one", "two"]) as views, \
+                mock.patch.object(mapping.tools, "write_settings") as written, mock.patch.object(mapping, "to_generic") as generic, \
+                mock.patch.object(mapping.clock_gating, "insert") as gates:
+            mapping.elaborate(NAMED["poolpointer"], self.TECHNOLOGY, self.folder / "new", ["part"])
         self.assertEqual(views.call_args.args[1], [Size(1, 100, 232), Size(1, 160, 33)])
         settings = written.call_args.args[1]
         self.assertEqual((settings["black_boxes"], settings["technology_files"], settings["kept_modules"]), ("boxes", ["one", "two"], ["*part*"]))
@@ -84,7 +85,7 @@ class Netlists(InFolder):
         for name, text in texts.items():
             (self.folder / f"{name}.lib").write_text(text, encoding="utf-8")
         cells = {name: library.read(self.folder / f"{name}.lib") for name in texts}
-        self.technology = run.Technology(cells["typical"], cells["slow"], self.folder / "kit", ROOT, 330.0, cells["fast"])
+        self.technology = Technology(cells["typical"], cells["slow"], self.folder / "kit", ROOT, 330.0, cells["fast"])
         chosen = part_of(configuration.Configuration, name="some", top="array", column_modules=5, engines=0, engine_columns=0, module_columns=1)
         self.design = array(5)
         self.netlist = run._Netlist(self.design, Floorplan(self.design, 1), chosen, self.technology, self.folder / "effort0", {})
@@ -203,7 +204,7 @@ class Run(InFolder):
         early = part_of(timing.Report, output="early report") if margin else None
         best = run._Attempt(timed.netlist(), 2, 0.3, margin, early, {"pin": 0.5})
         cells = part_of(library.Library, nand2_area=0.8, mux2_area=2.0)
-        self.technology = part_of(run.Technology, slow=cells, typical=part_of(library.Library), fast=object())
+        self.technology = part_of(Technology, slow=cells, typical=part_of(library.Library), fast=object())
         with mock.patch.object(run, "elaborate") as self.elaborate, mock.patch.object(run, "_attempts", return_value=[best]) as self.attempts, \
                 mock.patch.object(run.loads, "check", return_value="fullest") as self.loads, \
                 mock.patch.object(run.floorplan, "pin_load", return_value="pin load"), \
@@ -269,7 +270,7 @@ class Attempts(unittest.TestCase):
         self.assertAlmostEqual(run._Attempt(nothing, 0, 0.12, replace(MARGIN, slack=0.05)).rank, 0.02)
 
     def test_a_slow_path_of_the_array_decides_about_a_library_without_a_fast_corner(self) -> None:
-        timed = part_of(run._Netlist, technology=part_of(run.Technology, fast=None),
+        timed = part_of(run._Netlist, technology=part_of(Technology, fast=None),
                         time=lambda *asked: SimpleNamespace(slack=0.25 if asked == ("slow", "nominal") else 9))
         self.assertEqual(run._timed(timed, 4), run._Attempt(timed, 4, 0.25, None))
 
@@ -285,7 +286,7 @@ class OtherWays(InFolder):
         slow = part_of(library.Library, path=Path("cells.lib"), wire_load="slow wires", drives=[["A", "B"]], area={"A": 1.0},
                        buffers=[part_of(library.Buffer, input_pin="A", output_pin="Y")])
         fast = part_of(library.Library, path=Path("other.lib"), wire_load="other")
-        self.technology = part_of(run.Technology, slow=slow, typical=part_of(library.Library, wire_load="other"), fast=fast, kit=Path("kit"), root=ROOT,
+        self.technology = part_of(Technology, slow=slow, typical=part_of(library.Library, wire_load="other"), fast=fast, kit=Path("kit"), root=ROOT,
                                   target_mhz=330.0)
         (self.effort / timing.BLOCKS).write_text(json.dumps({"blocks": ["a_column", ["c0"], 2]}), encoding="utf-8")
 

@@ -12,9 +12,8 @@ from unittest import mock
 
 from dtof_synth import batch, configuration, library, run_inputs, sram_kit, sram_model, standard_cells
 from dtof_synth.configuration import Configuration
-from dtof_synth.run import Technology
 from dtof_synth.sram_model import Macro, Size
-from dtof_synth.technology import needed_sizes
+from dtof_synth.technology import Technology, needed_sizes
 
 from . import counted_runs
 from .partial import part_of
@@ -122,7 +121,7 @@ class OtherInputs(Edited):
 
     def test_a_comment_in_the_flow_and_a_source_that_no_run_uses_keep_all(self) -> None:
         self.plant("constraints/dtof.sdc", "set setup_uncertainty", "# A comment.\nset setup_uncertainty")
-        self.plant("synth/dtof_synth/run.py", "\nTARGET_MHZ", "\n# A comment.\nTARGET_MHZ")
+        self.plant("synth/dtof_synth/technology.py", "\nTARGET_MHZ", "\n# A comment.\nTARGET_MHZ")
         self.plant("synth/dtof_synth/report.py", "from __future__", "import os\nfrom __future__")
         self.assertEqual(self.ran(), [])
 

@@ -14,7 +14,9 @@ from dtof_synth.activity import OTHER, STREAMING, Activity, Energy, Scope
 from dtof_synth.configuration import Configuration
 from dtof_synth.errors import FlowError
 from dtof_synth.library import Library
+from dtof_synth.mapping import EFFORTS
 from dtof_synth.power import ClockTree
+from dtof_synth.technology import Technology
 
 from .partial import part_of
 from .small_netlists import cell, module
@@ -65,7 +67,7 @@ class Array(unittest.TestCase):
         some = result("ezpointer")
         some = replace(some, shared=replace(some.shared, area=cls.library.area["INV_X1"], clock_energy_fj=100.0),
                        column_module=replace(some.column_module, clock_energy_fj=7.0), clock_tree=ClockTree(1, 1.0, 1000.0))
-        technology = part_of(run.Technology, typical=cls.library, slow=cls.library)
+        technology = part_of(Technology, typical=cls.library, slow=cls.library)
         with mock.patch.object(scene_power, "simulate", return_value=(design, counted)), \
                 mock.patch.object(scene_power, "uniform_mw", return_value=0.0):
             cls.power = scene_power.power(cls.configuration, "day", some, folder, technology, folder, 1)
@@ -131,7 +133,7 @@ class Pool(unittest.TestCase):
         with mock.patch.object(scene_power, "simulate", return_value=(design, counted)) as cls.simulate, \
                 mock.patch.object(scene_power, "uniform_mw", return_value=9.5) as cls.uniform, \
                 mock.patch.object(scene_power.activity, "energy", lambda scope, *_: cls.ENERGIES[scope.module]):
-            technology = part_of(run.Technology, typical=cls.library, slow=cls.library)
+            technology = part_of(Technology, typical=cls.library, slow=cls.library)
             cls.power = scene_power.power(NAMED["poolpointer"], "dusk", some, folder, technology, folder, 5)
 
     def test_each_part_is_scaled_to_the_array(self) -> None:
@@ -166,7 +168,7 @@ class Pool(unittest.TestCase):
                 "i": cell("INV_X1", {"A": 3}, {"Y": 4})}}, "a_quad_netlist": module({}, {})}}, counted)), \
                 mock.patch.object(scene_power, "uniform_mw", return_value=0.0), self.assertRaisesRegex(FlowError, "no clock of the phase other"):
             scene_power.power(NAMED["ezpointer"], "day", result("ezpointer"), Path(self.scratch.name),
-                              part_of(run.Technology, typical=self.library, slow=self.library), Path(self.scratch.name), 1)
+                              part_of(Technology, typical=self.library, slow=self.library), Path(self.scratch.name), 1)
 
 
 class Steps(unittest.TestCase):
@@ -177,7 +179,7 @@ class Steps(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
         typical, slow = (part_of(Library, path=Path(f"{corner}.lib"), wire_load=f"{corner} wires") for corner in ("typical", "slow"))
-        self.technology = part_of(run.Technology, typical=typical, slow=slow, kit=Path("kit"), root=ROOT)
+        self.technology = part_of(Technology, typical=typical, slow=slow, kit=Path("kit"), root=ROOT)
 
     def test_opensta_gets_the_rate_in_the_typical_corner(self) -> None:
         for name, column, modules in (("ezpointer", "u_column", 200), ("poolpointer", "u_quad", 50)):
@@ -202,13 +204,13 @@ class Steps(unittest.TestCase):
 
     def test_the_simulated_array_has_the_finished_column_in_place_of_its_own(self) -> None:
         mapped = {"modules": {"a_column": module({}, {}), "t": module({}, {"c": cell("a_column", {}, {})}, top=True)}}
-        with mock.patch.object(scene_power, "elaborate") as elaborate, mock.patch.object(scene_power, "map_to_cells", return_value=mapped) as mapping, \
+        with mock.patch.object(scene_power, "elaborate") as elaborate, mock.patch.object(scene_power, "map_to_cells", return_value=mapped) as mapped_with, \
                 mock.patch.object(scene_power.floorplan, "finish") as finish, mock.patch.object(scene_power, "_write_verilog") as write, \
                 mock.patch.object(scene_power, "count_activity", return_value="counted") as count:
             design, counted = scene_power.simulate(NAMED["ezpointer"], {"finished": 1}, self.technology, self.folder, 50.0, 3)
         self.assertEqual((design["modules"]["a_column"], counted), ({"finished": 1}, "counted"))
         self.assertEqual(elaborate.call_args.args[0], scene_power.small(NAMED["ezpointer"]))
-        self.assertEqual(mapping.call_args.args[3], run.EFFORTS[0])
+        self.assertEqual(mapped_with.call_args.args[3], EFFORTS[0])
         self.assertEqual(finish.call_args.args[1:], (self.technology.slow, scene_power.sram_kit.PIN_FF, NAMED["ezpointer"]))
         self.assertEqual((write.call_args.args[3], count.call_args.args[4]), ("static", 50.0))
 

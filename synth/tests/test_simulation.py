@@ -11,7 +11,8 @@ from pathlib import Path
 
 from dtof_synth import configuration, floorplan, netlist, simulation, sram_kit, technology
 from dtof_synth.errors import FlowError
-from dtof_synth.run import Technology, efforts, elaborate, map_to_cells
+from dtof_synth.mapping import efforts, elaborate, map_to_cells
+from dtof_synth.technology import Technology
 
 ROOT = Path(__file__).resolve().parents[2]
 NAMED = configuration.load(ROOT / "configurations.toml")

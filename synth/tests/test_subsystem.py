@@ -13,9 +13,9 @@ from dtof_synth import array_stand_in, library, standard_cells, subsystem, subsy
 from dtof_synth.activity import STREAMING
 from dtof_synth.array_stand_in import MODES, Port, Ports
 from dtof_synth.errors import FlowError
-from dtof_synth.run import Technology
-from dtof_synth.subsystem_power import Parts, SubsystemPower
 from dtof_synth.subsystem import Ends, Part, Slacks, Subsystem
+from dtof_synth.subsystem_power import Parts, SubsystemPower
+from dtof_synth.technology import Technology
 
 from .partial import part_of
 from .small_netlists import cell, module

@@ -13,7 +13,8 @@ from dtof_synth.array_stand_in import MODES, Port, Ports
 from dtof_synth.configuration import Configuration
 from dtof_synth.errors import FlowError
 from dtof_synth.library import Buffer, Library
-from dtof_synth.run import EFFORTS, Technology
+from dtof_synth.mapping import EFFORTS
+from dtof_synth.technology import Technology
 
 from .partial import part_of
 from .small_netlists import cell, module

@@ -17,7 +17,8 @@ from .. import batch, configuration, run_inputs, technology
 from ..cli import all_configurations
 from ..configuration import Configuration
 from ..errors import FlowError
-from ..run import Technology, with_wires
+from ..run import with_wires
+from ..technology import Technology
 from . import flow, picture, report, results
 from .flow import Result
 from .tools import Cells

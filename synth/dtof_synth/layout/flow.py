@@ -9,12 +9,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .. import netlist, run, sram_kit
+from .. import mapping, netlist, sram_kit
 from .. import tools as steps
 from ..configuration import Configuration, memories
 from ..errors import FlowError
 from ..orfs import small
-from ..run import Technology
+from ..technology import TARGET_MHZ, Technology
 from . import block as blocks
 from . import repair, results, wires
 from .block import Block
@@ -80,10 +80,10 @@ def columns(configuration: Configuration) -> int:
 def synthesise(configuration: Configuration, technology: Technology, folder: Path) -> Block:
     """Maps the column alone with the flow's own steps. In pool read-outs the block is a pair of columns, because routing all columns of an
     SRAM takes too long. The array around the block is small: a column does not depend on the number of columns."""
-    run.elaborate(small(configuration, ARRAY_COLUMNS), technology, folder, (PAIR,) if configuration.is_pool else ())
+    mapping.elaborate(small(configuration, ARRAY_COLUMNS), technology, folder, (PAIR,) if configuration.is_pool else ())
     library = technology.slow
     scripts = technology.root / "synth" / "yosys"
-    effort = run.LAYOUT_EFFORT
+    effort = mapping.LAYOUT_EFFORT
     inverter_ff = next(iter(library.input_ff[library.inverter].values()))
     constraints = folder / "abc.constr"
     constraints.write_text(f"set_driving_cell {library.inverter}\nset_load {4 * inverter_ff:.3f} [all_outputs]\n",
@@ -91,7 +91,7 @@ def synthesise(configuration: Configuration, technology: Technology, folder: Pat
     settings = folder / "column_settings.tcl"
     steps.write_settings(settings, {
         "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
-        "abc_constraints": constraints, "abc_period_ps": f"{1e6 / run.TARGET_MHZ * effort.share:.0f}",
+        "abc_constraints": constraints, "abc_period_ps": f"{1e6 / TARGET_MHZ * effort.share:.0f}",
         "column_script": effort.column, "shared_script": effort.shared, "naming": "0",
         "tie_low": list(library.tie.get("0", ())), "tie_high": list(library.tie.get("1", ())),
         "netlist_json": folder / "column.json"})
