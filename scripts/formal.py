@@ -62,8 +62,7 @@ opt -full -nodffe -nosdff
 opt -fast -nodffe -nosdff
 aigmap
 check -assert
-{initial}
-write_rtlil model.il
+{initial}write_rtlil model.il
 write_aiger -I -B -L -zinit -symbols -map model.aim model.aig
 """
 # With a free clock a step of the model is a moment, and clocks are inputs like others.
@@ -82,7 +81,7 @@ formalff -clk2ff""",
 # What a design leaves open: registers before their reset, words of an SRAM before a write, its output after a write.
 ANY_START = {"arbitrary": "expose -evert t:arbitrary_bit", "initial": ""}
 # Two copies of a design are compared: what the design leaves open is 0 in both, and the assertions inside are left to other proofs.
-TWINS = {"arbitrary": "delete t:$assert */u_* %i\ndelete t:arbitrary_bit\nsetundef -undriven -zero", "initial": "setundef -init -zero"}
+TWINS = {"arbitrary": "delete t:$assert */u_* %i\ndelete t:arbitrary_bit\nsetundef -undriven -zero", "initial": "setundef -init -zero\n"}
 SIMULATE_SCRIPT = """
 read_rtlil model.il
 sim -q -r counterexample.aiw -map model.aim -vcd counterexample.vcd {clock}
