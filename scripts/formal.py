@@ -38,7 +38,7 @@ RULES = (
 )
 ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in the report, rounded up
 
-SEARCH_FRAMES = 180  # for a planted bug or a goal where the proof itself has no bound
+SEARCH_FRAMES = 180
 SIMULATE_SECONDS = 60
 
 # An instance of a module, perhaps by a macro of dtof_array, or something of a package.
@@ -52,7 +52,7 @@ read_verilog -formal -sv {defines} -I{hdl}/common -I{formal} -defer {sources}
 {parameters}
 hierarchy -check -top {harness}
 prep -flatten -top {harness}
-expose -evert t:arbitrary_bit
+{arbitrary}
 memory_map
 {registers}
 dffunmap
@@ -62,7 +62,7 @@ opt -full -nodffe -nosdff
 opt -fast -nodffe -nosdff
 aigmap
 check -assert
-write_rtlil model.il
+{initial}write_rtlil model.il
 write_aiger -I -B -L -zinit -symbols -map model.aim model.aig
 """
 # With a free clock a step of the model is a moment, and clocks are inputs like others.
@@ -78,6 +78,10 @@ opt_clean
 formalff -clk2ff""",
     "legalize": "",
 }
+# What a design leaves open: registers before their reset, words of an SRAM before a write, its output after a write.
+ANY_START = {"arbitrary": "expose -evert t:arbitrary_bit", "initial": ""}
+# Two copies of a design are compared: what the design leaves open is 0 in both, and the assertions inside are left to other proofs.
+TWINS = {"arbitrary": "delete t:$assert */u_* %i\ndelete t:arbitrary_bit\nsetundef -undriven -zero", "initial": "setundef -init -zero\n"}
 SIMULATE_SCRIPT = """
 read_rtlil model.il
 sim -q -r counterexample.aiw -map model.aim -vcd counterexample.vcd {clock}
@@ -116,6 +120,8 @@ class Proof:
     quick: bool = False
     gated_clock: bool = False  # the design has a clock gate; a step is a clock all the same (formal/dtof_clock_gate.sv)
     free_clock: bool = False  # a step is a moment instead of a clock, and clocks are inputs like any other
+    twins: bool = False  # two copies of a design are compared (TWINS)
+    search_frames: int = SEARCH_FRAMES  # for a planted bug or a goal where the proof itself has no bound
     timeout: int = 240  # seconds of processor time a tool may take
 
 
@@ -278,11 +284,11 @@ def solve(job: Job) -> Outcome:
         files = with_bug(files, job.bug, folder)
     script = YOSYS_SCRIPT.format(
         defines="-DFIND_GOAL" if job.kind == "goal" else "", hdl=HDL, formal=FORMAL, sources=" ".join(map(str, files)),
-        harness=proof.harness, **registers_of(proof),
+        harness=proof.harness, **registers_of(proof), **(TWINS if proof.twins else ANY_START),
         parameters="".join(f"chparam -set {name} {value} {proof.harness}; " for name, value in job.parameters.items()),
     )
     unbounded = job.kind == "prove" and proof.frames is None
-    frames = SEARCH_FRAMES if proof.frames is None else proof.frames
+    frames = proof.search_frames if proof.frames is None else proof.frames
     # Equal registers and gates are merged first where there should be no counterexample.
     swept = job.kind == "prove"
     engine = f"{'scorr; write_aiger swept.aig; ' if swept else ''}{'pdr' if unbounded else f'bmc3 -F {frames}'}"

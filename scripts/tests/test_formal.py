@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts/formal.py reads from the tools: outputs that are constant 0, and the assertion that fails in a replay."""
+"""What scripts/formal.py reads from the tools: outputs that are constant 0, and the assertion that fails in a replay. And what twins leave out."""
 
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -34,6 +35,42 @@ class Replay(unittest.TestCase):
         for said in ("Warning: Assert minimum_properties.a_smaller (minimum.sv:33.43-33.83) failed.",
                      "Warning: Assertion minimum_properties.a_smaller (minimum.sv:33.43-33.83) failed."):
             self.assertEqual(formal.FAILED.findall(said), ["minimum_properties.a_smaller"])
+
+
+# Two registers beside each other. The assertion inside fails, and each register may begin with another value.
+TWIN = """
+module part (input logic clk_i, input logic d_i, output logic q_o);
+  always_ff @(posedge clk_i) q_o <= q_o ^ d_i;
+  always_ff @(posedge clk_i) a_inside: assert (!d_i);
+endmodule
+module twin (input logic clk_i, input logic d_i);
+  logic first, second;
+  part u_first (.clk_i(clk_i), .d_i(d_i), .q_o(first));
+  part u_second (.clk_i(clk_i), .d_i({other}), .q_o(second));
+  always_comb a_same: assert (first == second);
+endmodule
+"""
+
+
+class Twins(unittest.TestCase):
+    def proved(self, left_open: dict[str, str], other: str = "d_i") -> bool:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "twin.sv").write_text(TWIN.replace("{other}", other), encoding="ascii")
+            script = formal.YOSYS_SCRIPT.format(defines="", hdl=formal.HDL, formal=formal.FORMAL, sources="twin.sv", harness="twin", parameters="",
+                                                **formal.ONE_CLOCK, **left_open)
+            subprocess.run(["yosys", "-q", "-p", script.strip().replace("\n", "; ")], cwd=folder, check=True)
+            log = subprocess.run(formal.abc("scorr; write_aiger swept.aig; pdr"), cwd=folder, check=True, capture_output=True, text=True).stdout
+            return "Property proved" in log or ("All outputs solved" in log and formal.never_asserted(folder / "swept.aig"))
+
+    def test_twins_begin_alike_and_leave_their_own_assertions_to_others(self) -> None:
+        self.assertTrue(self.proved(formal.TWINS))
+        self.assertFalse(self.proved(formal.ANY_START))
+        self.assertFalse(self.proved({**formal.TWINS, "initial": ""}))
+        self.assertFalse(self.proved({**formal.TWINS, "arbitrary": ""}))
+
+    def test_a_difference_between_twins_is_found(self) -> None:
+        self.assertFalse(self.proved(formal.TWINS, "!d_i"))
 
 
 class Quick(unittest.TestCase):
