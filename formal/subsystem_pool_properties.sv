@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Proves of dtof_subsystem with poolPointer, in any number of continuous frames after reset and the writes of its registers: the words at the
-// sink are those of a second array, for any timestamps, any gaps of the source and any waits of the sink. Around the second array are only a
-// queue of two lines, a clock gate that is shut while a line is late inside an acquisition, and a queue of two words. Both arrays are in step.
+// sink are those of a second array, for any timestamps, any gaps of the source, any s_tlast_i and any waits of the sink. Around the second array
+// are only a queue of two lines, a watchdog, a clock gate that is shut while a line is late inside an acquisition, and a queue of two words. Both
+// arrays are in step.
 //
 // With FIXED = 1 all inputs are fixed: pseudo-random timestamps, source and sink wait in about a quarter of the clocks, and s_tlast_i is where it
 // belongs.
@@ -11,16 +12,15 @@
 `default_nettype none
 
 module subsystem_pool_properties #(
-    parameter int COLUMNS = 2,
-    parameter int ROWS = 2,
-    parameter int LABELS = 2,
-    parameter int PRIOR = 1,
     parameter int FIXED = 0,
+    localparam int COLUMNS = 2,
+    localparam int ROWS = 2,
     localparam int NP = 8,
     localparam int SLOTS = 2,
     localparam int ACQUISITIONS = 3,  // one in each phase
     localparam int COARSE_END = 1,
     localparam int TRACK_END = 2,
+    localparam int WATCHDOG = 20,  // clocks
     localparam int ACQ_WIDTH = 4,
     localparam int COUNT_WIDTH = 4,
     localparam int ADVANTAGE_WIDTH = 4,
@@ -41,7 +41,7 @@ module subsystem_pool_properties #(
   end
 
   // Writes of the registers after reset, two clocks each, which the first one's wait states precede. The last one starts continuous frames.
-  localparam int WRITES = 5;
+  localparam int WRITES = 6;
   logic [2:0] number_q;  // of the write
   logic psel, penable_q, pready;
   logic [11:0] paddr;
@@ -76,9 +76,13 @@ module subsystem_pool_properties #(
           paddr = dtof_registers_pkg::TRACK_END;
           pwdata = 32'(TRACK_END);
         end
+        3'd3: begin
+          paddr = dtof_registers_pkg::WATCHDOG;
+          pwdata = 32'(WATCHDOG);
+        end
         default: begin
           paddr = dtof_registers_pkg::OUTPUT;
-          pwdata = (32'(PRIOR) << dtof_registers_pkg::OUTPUT_PRIOR_LSB) | (32'd1 << dtof_registers_pkg::OUTPUT_SMOOTH_LSB);
+          pwdata = (32'd1 << dtof_registers_pkg::OUTPUT_PRIOR_LSB) | (32'd1 << dtof_registers_pkg::OUTPUT_SMOOTH_LSB);
         end
       endcase
     end
@@ -123,12 +127,12 @@ module subsystem_pool_properties #(
       .SLOTS           (SLOTS),
       .COUNT_WIDTH     (COUNT_WIDTH),
       .ACQ_WIDTH       (ACQ_WIDTH),
-      .LABELS          (LABELS),
+      .LABELS          (2),
       .SCORE_BITS      (1),
       .OFFSET_BITS     (0),
       .ADVANTAGE_WIDTH (ADVANTAGE_WIDTH),
       .POINTER_SHIFT   (0),
-      .PRIOR           (PRIOR),
+      .PRIOR           (1),
       .ENGINE_COLUMNS  (2),
       .BROADCAST_STAGES(1),
       .CLOCK_WAITS     (1),
@@ -169,6 +173,7 @@ module subsystem_pool_properties #(
   logic [3:0] reset_q;
   logic [3*ACQ_WIDTH+1:0] written_q, settings_q;  // {smooth, prior, coarse_end, track_end, acquisitions}; START commits what was written
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end;
+  logic [23:0] limit_q;  // of the watchdog
   logic smooth, prior, continuous_q, starts_q, again_q, running_q, in_reset_q, offered_q, committed_q, write;
   logic begins, legal, start, busy, done, late, clock, valid, ready, tvalid, tready, tlast;
   logic [WIDTH-1:0] head;
@@ -190,6 +195,7 @@ module subsystem_pool_properties #(
       reset_q <= 4'd11;
       in_reset_q <= 1'b1;
       {starts_q, again_q, running_q, continuous_q} <= '0;
+      limit_q <= 24'(dtof_registers_pkg::WATCHDOG_RESET);
       written_q <= {2'b10, {3 * ACQ_WIDTH{1'b0}}};
     end else begin
       if (reset_q != '0) reset_q <= reset_q - 1'b1;
@@ -203,6 +209,7 @@ module subsystem_pool_properties #(
           dtof_registers_pkg::ACQUISITIONS: written_q[0+:ACQ_WIDTH] <= pwdata[ACQ_WIDTH-1:0];
           dtof_registers_pkg::TRACK_END: written_q[ACQ_WIDTH+:ACQ_WIDTH] <= pwdata[ACQ_WIDTH-1:0];
           dtof_registers_pkg::COARSE_END: written_q[2*ACQ_WIDTH+:ACQ_WIDTH] <= pwdata[ACQ_WIDTH-1:0];
+          dtof_registers_pkg::WATCHDOG: limit_q <= pwdata[23:0];
           dtof_registers_pkg::OUTPUT:
           written_q[3*ACQ_WIDTH+:2] <= {pwdata[dtof_registers_pkg::OUTPUT_SMOOTH_LSB], pwdata[dtof_registers_pkg::OUTPUT_PRIOR_LSB]};
           default: continuous_q <= pwdata[dtof_registers_pkg::CONTROL_CONTINUOUS_LSB];
@@ -225,12 +232,12 @@ module subsystem_pool_properties #(
       .SLOTS           (SLOTS),
       .COUNT_WIDTH     (COUNT_WIDTH),
       .ACQ_WIDTH       (ACQ_WIDTH),
-      .LABELS          (LABELS),
+      .LABELS          (2),
       .SCORE_BITS      (1),
       .OFFSET_BITS     (0),
       .ADVANTAGE_WIDTH (ADVANTAGE_WIDTH),
       .POINTER_SHIFT   (0),
-      .PRIOR           (PRIOR),
+      .PRIOR           (1),
       .ENGINE_COLUMNS  (2),
       .BROADCAST_STAGES(1)
   ) u_reference (
@@ -272,7 +279,7 @@ module subsystem_pool_properties #(
   ) u_watchdog (
       .clk_i    (clk_i),
       .rst_ni   (checking),
-      .limit_i  (24'(dtof_registers_pkg::WATCHDOG_RESET)),
+      .limit_i  (limit_q),
       .waits_i  (starved && (running_q || again_q) && !stores),
       .expired_o(expired)
   );

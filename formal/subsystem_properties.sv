@@ -18,7 +18,6 @@ module subsystem_properties #(
     parameter int FRACTION_BITS = 0,
     parameter int CONFIDENCE_WIDTH = 2,
     parameter int POINTER_PORTS = 2,
-    parameter int PRIOR = 0,
     parameter int CLOCK_WAITS = 1,
     parameter int BUFFER_LINES = 2,
     parameter int MOST_CLOCKS = 62,  // from the first write to the end of two frames, without any waits
@@ -31,13 +30,9 @@ module subsystem_properties #(
     input logic                   m_tready_i
 );
 
-  localparam int POOL = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 1 : 0;
   localparam int SIDE_BAND = (1 << (NB - 1)) + 1;  // of hisPointer, with the default of NP = 3
-  localparam int COARSE_END = 1;  // of poolPointer, as TRACK_END
-  localparam int TRACK_END = 2;
   localparam int FRAMES = 2;
   localparam int ACQUISITION_LINES = ROWS * SLOTS;
-  localparam int FRAME_LINES = ACQUISITIONS * ACQUISITION_LINES;
 
   logic checking = 1'b0;
   always_ff @(posedge clk_i) begin
@@ -45,7 +40,7 @@ module subsystem_properties #(
   end
 
   // Writes of the registers after reset, two clocks each, which the first one's wait states precede. The last one starts continuous frames.
-  localparam int WRITES = (POOL != 0) ? 5 : 2;
+  localparam int WRITES = 2;
   logic [11:0] clock_q;
   logic psel, penable, pready;
   logic [11:0] paddr;
@@ -62,24 +57,8 @@ module subsystem_properties #(
     paddr = dtof_registers_pkg::CONTROL;
     pwdata = (32'd1 << dtof_registers_pkg::CONTROL_START_LSB) | (32'd1 << dtof_registers_pkg::CONTROL_CONTINUOUS_LSB);
     if (32'(clock_q) < 2 * WRITES - 2) begin
-      case (clock_q[3:1])
-        3'd0: begin
-          paddr = dtof_registers_pkg::ACQUISITIONS;
-          pwdata = 32'(ACQUISITIONS);
-        end
-        3'd1: begin
-          paddr = dtof_registers_pkg::COARSE_END;
-          pwdata = 32'(COARSE_END);
-        end
-        3'd2: begin
-          paddr = dtof_registers_pkg::TRACK_END;
-          pwdata = 32'(TRACK_END);
-        end
-        default: begin
-          paddr = dtof_registers_pkg::OUTPUT;
-          pwdata = 32'(PRIOR) << dtof_registers_pkg::OUTPUT_PRIOR_LSB;
-        end
-      endcase
+      paddr = dtof_registers_pkg::ACQUISITIONS;
+      pwdata = 32'(ACQUISITIONS);
     end
   end
 
@@ -141,14 +120,7 @@ module subsystem_properties #(
       .FRACTION_BITS   (FRACTION_BITS),
       .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
       .POINTER_PORTS   (POINTER_PORTS),
-      .ACQ_WIDTH       ((POOL != 0) ? 4 : 2),
-      .LABELS          (2),
-      .SCORE_BITS      (1),
-      .OFFSET_BITS     (0),
-      .ADVANTAGE_WIDTH (4),
-      .POINTER_SHIFT   (0),
-      .PRIOR           (PRIOR),
-      .ENGINE_COLUMNS  (2),
+      .ACQ_WIDTH       (2),
       .BROADCAST_STAGES(1),
       .CLOCK_WAITS     (CLOCK_WAITS),
       .BUFFER_LINES    (BUFFER_LINES)
@@ -180,7 +152,7 @@ module subsystem_properties #(
       .m_axis_tlast_o (m_tlast)
   );
 
-  // Words are counted when the sink takes them: row by row; poolPointer sends column by column.
+  // Words are counted when the sink takes them, row by row.
   logic [7:0] sink_word_q, sink_frame_q, sink_row_q, sink_column_q;
   logic sink_first, sink_last, last_row, last_column;
 
@@ -200,10 +172,8 @@ module subsystem_properties #(
       if (sink_last) begin
         sink_frame_q <= sink_frame_q + 1'b1;
       end
-      if (POOL == 0 || last_row) begin
-        sink_column_q <= last_column ? '0 : sink_column_q + 1'b1;
-      end
-      if (POOL != 0 || last_column) begin
+      sink_column_q <= last_column ? '0 : sink_column_q + 1'b1;
+      if (last_column) begin
         sink_row_q <= last_row ? '0 : sink_row_q + 1'b1;
       end
     end
@@ -238,7 +208,7 @@ module subsystem_properties #(
             his_pointer_reference #(
                 .NP              (NP),
                 .NB              (NB),
-                          .COUNT_WIDTH     (COUNT_WIDTH),
+                .COUNT_WIDTH     (COUNT_WIDTH),
                 .FRACTION_BITS   (FRACTION_BITS),
                 .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
                 .ACQUISITIONS    (ACQUISITIONS)
@@ -253,19 +223,17 @@ module subsystem_properties #(
             );
           end
 
-          if (POOL == 0) begin : g_value
-            result_word_rules #(
-                .COLUMN          (c),
-                .ROW             (r),
-                .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)
-            ) u_rules (
-                .checking    (checking),
-                .here_i      (m_tvalid && 32'(sink_word_q) == PLACE),
-                .tdata_i     (m_tdata),
-                .position_i  (position),
-                .confidence_i(confidence)
-            );
-          end
+          result_word_rules #(
+              .COLUMN          (c),
+              .ROW             (r),
+              .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)
+          ) u_rules (
+              .checking    (checking),
+              .here_i      (m_tvalid && 32'(sink_word_q) == PLACE),
+              .tdata_i     (m_tdata),
+              .position_i  (position),
+              .confidence_i(confidence)
+          );
         end
       end
     end
