@@ -11,9 +11,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from . import area_parts, batch, budgets, check, configuration, corner_ratios, estimate, estimate_points, gates, goals, growth, \
-    line_buffer, namings, part_costs, report, report_inputs, scene_power, signalled_clear, simulation, sram_kit, sram_report, \
-    yosys_versions
+from . import batch, budgets, check, configuration, corner_ratios, estimate, estimate_points, gates, goals, growth, namings, \
+    part_costs, report, report_inputs, scene_power, signalled_clear, simulation, sram_kit, sram_report, yosys_versions
 from . import technology as technologies
 from .configuration import Configuration
 from .errors import FlowError
@@ -90,9 +89,9 @@ def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration
     reports.mkdir(exist_ok=True)
     main = {name: results[name] for name in named}
     found = goals.check(main)
-    arrays = [(result, area_parts.parts(result).total) for result in main.values() if not result.configuration.variant_of]
-    buffers = line_buffer.areas((result for result, _ in arrays), technology, ROOT / "build" / "synth" / "line_buffer")
-    extra = "\n".join([line_buffer.section(arrays, buffers), signalled_clear.section(named, results), report.goals_section(found, gates.read(ROOT / gates.FILE)),
+    extra = "\n".join([signalled_clear.section(named, results), report.goals_section(found, gates.read(ROOT / gates.FILE)),
+                       "Around the array: [subsystem.md](subsystem.md) (`make synth-subsystem`) has the area of `dtof_subsystem`, and its line "
+                       "buffer's share of the array.\n\n"
                        "How cost grows (`make synth-growth`): [growth.csv](growth.csv)\n\n![growth](growth.png)\n"])
     (reports / "area.md").write_text(report.area(main, extra, technology.typical.name, digest), encoding="utf-8")
     (reports / "timing.md").write_text(report.timing(main, technology.typical.name, digest), encoding="utf-8")
@@ -101,7 +100,7 @@ def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration
     uses = technologies.needed_sizes(everything)
     (reports / "sram.md").write_text(sram_report.text(uses, set(named), PDK), encoding="utf-8")
     report_inputs.record("synth")
-    judged = [*found, *line_buffer.goals(arrays, buffers), *gates.measured(reports / "pool.md")]
+    judged = [*found, *gates.measured(reports / "pool.md")]
     status = _gate(arguments, main, judged, budgets.read(BUDGETS), everything=True)
     _say("reports/area.md, reports/timing.md, reports/sram.md written")
     return status
