@@ -37,7 +37,9 @@ SCENE = "room"
 ACQUISITIONS = 64
 FRAME_ACQUISITIONS = 33_333
 FRAMES_PER_S = 30
-GOALS_MW = {"poolpointer": 200.0, "ezpointer_one_port": 70.0, "hispointer": 150.0}
+# By configuration and light: mW while acquisitions stream in.
+GOALS_MW = {"ezpointer_one_port": {"day": 70.0, "dusk": 70.0}, "hispointer": {"day": 150.0, "dusk": 150.0},
+            "poolpointer": {"day": 150.0, "dusk": 90.0}, "poolpointer_lean": {"day": 100.0, "dusk": 60.0}}
 
 
 @dataclass(frozen=True)
@@ -270,14 +272,12 @@ def report(found: list[ScenePower], results: dict[str, Result], digest: str, see
                      f"{one.idle_mw:.1f} | {one.leakage_mw:.1f} | {one.streaming_clocks / frame:.0%} | {one.other_clocks / frame:.1%} | "
                      f"{one.frame_mj:.2f} | {one.frame_mj * 1e6 / one.configuration.pixels:.0f} | {one.mean_mw:.1f} | "
                      f"{one.gated_mean_mw:.1f} |")
-    lines += ["", "## Goals", "", "Of the acquisitions, in the worse light.", "", "| goal | here | met |", "|---|---:|---:|"]
-    for name, limit in GOALS_MW.items():
-        worst = max((one for one in found if one.configuration.name == name), key=lambda one: one.streaming.total,
-                    default=None)
-        if worst is not None:
-            met = "yes" if worst.streaming.total <= limit else "**no**"
-            lines.append(f"| {worst.configuration.title}: at most {limit:g} mW | {worst.streaming.total:.1f} mW "
-                         f"({worst.light}) | {met} |")
+    lines += ["", "## Goals", "", "While acquisitions stream in.", "", "| goal | here | met |", "|---|---:|---:|"]
+    for one in found:
+        limit = GOALS_MW.get(one.configuration.name, {}).get(one.light)
+        if limit is not None:
+            lines.append(f"| {one.configuration.title}, {one.light}: at most {limit:g} mW | {one.streaming.total:.1f} mW | "
+                         f"{'yes' if one.streaming.total <= limit else '**no**'} |")
     lines += wide_word_lines(found)
     return "\n".join([*lines, ""])
 

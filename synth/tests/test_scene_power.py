@@ -252,7 +252,7 @@ class Steps(unittest.TestCase):
         self.assertIn("| poolPointer | day | 0.12 | 70.0 | 65.0 | 5.0 | 1.0 | 60.0 | 40.0 | 10.0 | 186.0 | 6.0 |", lines)
         # 330 MHz, 30 frames/s: 11e6 clocks. (186 x 5.5e6 + 18.6 x 1.1e6 + 12 x 4.4e6) / 330e6 = 3.322 mJ, of 32,000 pixels.
         self.assertIn("| poolPointer | day | 186.0 | 18.6 | 12.0 | 10.0 | 50% | 10.0% | 3.32 | 104 | 99.7 | 98.9 |", lines)
-        self.assertIn("| poolPointer: at most 200 mW | 186.0 mW (day) | yes |", lines)
+        self.assertIn("| poolPointer, day: at most 150 mW | 186.0 mW | **no** |", lines)
         text = "\n".join(lines)
         for words in ("`room` at 50 klux (day), 2 klux (dusk)", "330 MHz, typical corner, seed 4; inputs `0123456789ab`", "toggled 0.1 times a clock",
                       "25% of the TDC slots", "A frame of 33333 acquisitions, 30 frames/s", "with 64 acquisitions"):
@@ -261,11 +261,13 @@ class Steps(unittest.TestCase):
             if line.startswith("|---"):
                 self.assertEqual(above.count(" | "), line.count("|") - 2, above)
 
-    def test_the_worse_light_decides_a_goal(self) -> None:
-        found = self.found()
-        found[1] = replace(found[1], streaming=replace(found[1].streaming, columns=84.1))
-        self.assertIn("| poolPointer: at most 200 mW | 200.1 mW (dusk) | **no** |",
-                      scene_power.report(found, {"poolpointer": result("poolpointer")}, "0", 1).splitlines())
+    def test_each_light_has_its_goal(self) -> None:
+        day, dusk = self.found()
+        found = [replace(day, streaming=replace(day.streaming, columns=34.0)),  # 150.0 mW
+                 replace(dusk, streaming=replace(dusk.streaming, columns=34.1, sram=0.0))]  # 90.1 mW
+        lines = scene_power.report(found, {"poolpointer": result("poolpointer")}, "0", 1).splitlines()
+        self.assertIn("| poolPointer, day: at most 150 mW | 150.0 mW | yes |", lines)
+        self.assertIn("| poolPointer, dusk: at most 90 mW | 90.1 mW | **no** |", lines)
 
     def test_the_table(self) -> None:
         scene_power.write_csv(self.folder / "power.csv", self.found())
