@@ -86,6 +86,13 @@ subsystem/dtof_stream_output.sv
 subsystem/dtof_word_packer.sv
 subsystem/dtof_raster_buffer.sv
 subsystem/dtof_frame_control.sv
+subsystem/dtof_apb_port.sv
+subsystem/dtof_writable_bits.sv
+subsystem/dtof_read_only_registers.sv
+subsystem/dtof_command_registers.sv
+subsystem/dtof_setting_registers.sv
+subsystem/dtof_template_registers.sv
+subsystem/dtof_event_registers.sv
 subsystem/dtof_apb_registers.sv
 subsystem/dtof_axi_lite_to_apb.sv
 subsystem/dtof_reset_synchroniser.sv
