@@ -99,4 +99,8 @@ subsystem/dtof_reset_synchroniser.sv
 subsystem/dtof_synchroniser.sv
 subsystem/dtof_gray_pointer.sv
 subsystem/dtof_async_line_fifo.sv
+subsystem/dtof_optional_self_test.sv
+subsystem/dtof_line_path.sv
+subsystem/dtof_gated_array.sv
+subsystem/dtof_result_path.sv
 subsystem/dtof_subsystem.sv
