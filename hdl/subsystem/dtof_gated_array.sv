@@ -58,7 +58,7 @@ module dtof_gated_array #(
     parameter int ENGINE_COLUMNS = 34,            // columns that share an engine
     // verilator lint_on UNUSEDPARAM
     // end of parameters of the arrays
-    parameter int CLOCK_WAITS = 1,
+    parameter int CLOCK_WAITS = 0,  // by default what every technology can do: Yosys elaborates defaults, too
     parameter int RESULT_WIDTH = 32
 ) (
     input  logic                       clk_i,
