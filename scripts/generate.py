@@ -7,6 +7,7 @@ the project is cited, from CMakeLists.txt. --check only says which are stale."""
 
 import re
 import sys
+import textwrap
 from collections.abc import Callable
 from pathlib import Path
 
@@ -33,6 +34,7 @@ SUBSYSTEM, REGISTERS = "docs/user/subsystem.md", "docs/user/registers.md"
 COMMANDS = "docs/user/commands.md"
 STUDIES_BEGIN, STUDIES_END = "<!-- studies: scripts/generate.py -->\n", "<!-- end of studies -->\n"
 CONFIGURATION = "docs/user/configuration.md"
+CONNECTIONS_WIDTH = 120  # characters of a line with several connections
 
 
 def readout_range(table: Table) -> str:
@@ -138,12 +140,17 @@ def subsystem_names(table: Table) -> list[str]:
                                *(name for top in table.tops.values() for name in top.schedule)]))  # fmt: skip
 
 
-def subsystem_parameters(table: Table) -> list[str]:
-    """Declarations of dtof_subsystem's parameters: those of all tops, with the defaults of the chosen read-out."""
+def array_names(table: Table) -> list[str]:
+    """Parameters of dtof_gated_array: those of all arrays, without the time gate, which is in front of the array."""
+    return list(dict.fromkeys(name for top in table.tops.values() for name in top.parameters if name != "TIME_GATE"))
+
+
+def subsystem_parameters(table: Table, names: list[str]) -> list[str]:
+    """Declarations of these parameters, with the defaults of the chosen read-out. A default of several lines has its comment in front."""
     translate = lambda expression: translated(expression, str, lambda name: f"dtof_pkg::{name}_of")  # noqa: E731
     tops = table.tops.values()
-    lines = ["// verilator lint_off UNUSEDPARAM"]  # every array uses its own part
-    for name in subsystem_names(table):
+    declared: dict[str, str] = {}
+    for name in names:
         parameter = table.parameters[name]
         values: dict[str, list[str]] = {}  # by expression, those that have it
         for top in tops:
@@ -155,13 +162,23 @@ def subsystem_parameters(table: Table) -> list[str]:
         choices = [f"({' || '.join(f'READOUT == dtof_pkg::{constant}' for constant in constants)}) ? {text}"
                    for text, constants in values.items()]  # fmt: skip
         default = "\n        : ".join([*choices, translate(parameter.default)])
-        lines += [f"// {parameter.help}", f"parameter int {name} = {default},"]
+        declared[name] = f"parameter int {name} = {default},"
+    width = max(len(text) for text in declared.values() if "\n" not in text)
+    lines = ["// verilator lint_off UNUSEDPARAM"]  # every array uses its own part
+    for name, text in declared.items():
+        comment = f"// {table.parameters[name].help}"
+        lines += [comment, text] if "\n" in text else [f"{text:<{width}}  {comment}"]
     return [*lines, "// verilator lint_on UNUSEDPARAM"]
 
 
 def connections(names: list[str]) -> list[str]:
     """Connections of a module's parameters to parameters of the same names."""
     return [f".{name}({name})," for name in names[:-1]] + [f".{names[-1]}({names[-1]})"]
+
+
+def short_connections(names: list[str]) -> list[str]:
+    """The same, several in a line, for a module that passes most of its parameters on."""
+    return textwrap.wrap(", ".join(f".{name}({name})" for name in names) + ",", CONNECTIONS_WIDTH)
 
 
 def column_header(what: str, rule: str) -> list[str]:
@@ -186,14 +203,15 @@ def inlined(name: str, text: str, lists: dict[str, list[str]]) -> str:
 
 
 def modules(table: Table, found: limits.Limits) -> dict[str, str]:
-    """Generated texts: the columns of dtof_array; dtof_subsystem, which has one time gate for all arrays; its bench; and the C++
-    structures that have the parameters."""
+    """Generated texts: the columns of dtof_array; dtof_subsystem, which has one time gate for all arrays, and the module in it that has the
+    array; its bench; and the C++ structures that have the parameters."""
     column = {"parameters of a column": column_header("parameters", "UNUSEDPARAM"),
               "ports of a column": column_header("ports", "UNUSEDSIGNAL")}  # fmt: skip
-    arrays = {"parameters of the arrays": subsystem_parameters(table)}
+    arrays = {"parameters of the arrays": subsystem_parameters(table, subsystem_names(table))}
     lists: dict[str, dict[str, list[str]]] = {name: column for readout in table.readouts.values()
              if readout.column and (ROOT / (name := f"hdl/thesis/{readout.column}.sv")).is_file()}  # fmt: skip
-    lists[rtl_of("dtof_subsystem")] = arrays | {
+    lists[rtl_of("dtof_subsystem")] = arrays | {"parameters of dtof_gated_array": short_connections(array_names(table))}
+    lists[rtl_of("dtof_gated_array")] = {"parameters of the arrays": subsystem_parameters(table, array_names(table))} | {
         f"parameters of {top.name}": connections([name for name in top.parameters if name != "TIME_GATE"]) for top in table.tops.values()
     }
     lists[BENCH] = arrays | {"parameters of dtof_subsystem": connections(subsystem_names(table))}

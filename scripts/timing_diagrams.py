@@ -26,7 +26,7 @@ PAGE = "docs/user/bare_arrays.md"  # with the clocks of a frame
 BEGIN = "<!-- frame clocks: written by scripts/timing_diagrams.py -->\n"
 END = "<!-- end of frame clocks -->\n"
 BENCH = "timing_bench"
-BUFFER = "u_subsystem.u_line_buffer"
+BUFFER = "u_subsystem.u_line_path.u_line_buffer"
 FRAME = {"COLUMNS": 8, "ROWS": 16, "ACQUISITIONS": 64}
 
 

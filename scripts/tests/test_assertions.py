@@ -11,7 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 HDL = ROOT / "hdl"
 BENCH = "examples/example_bench.sv"
-SUBSYSTEM = "hdl/subsystem/dtof_subsystem.sv"
+GATED_ARRAY = "hdl/subsystem/dtof_gated_array.sv"
 # What the bench does while its frame runs, so that a cover that stays at 0 is a mistake of the cover.
 UNOPTIMISED = ("-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0")  # compiling takes longer than running
 MET = {"c_write", "c_read", "c_frame", "c_acquisition", "c_at_once", "c_held_up", "c_in_a_row", "c_pause", "c_last"}
@@ -40,17 +40,17 @@ class Assertions(unittest.TestCase):
                         '#0.1 penable = !$test$plusargs("fault_setup"); if ($test$plusargs("fault_address")) paddr[2] = !paddr[2];')
         bench = planted(bench, r"#0\.1 psel = 1'b1;", '#0.1 psel = 1; penable = $test$plusargs("fault_no_setup");')
         (cls.folder / "bench.sv").write_text(bench, encoding="utf-8")
-        subsystem = planted((ROOT / SUBSYSTEM).read_text(encoding="utf-8"), r"(\.tdc_valid_i\s*)\(([^)]*)\)", r"\1(\2 && !fault_gap)")
+        gated = planted((ROOT / GATED_ARRAY).read_text(encoding="utf-8"), r"(\.tdc_valid_i\s*)\(([^)]*)\)", r"\1(\2 && !fault_gap)")
         # A signal of its own: Verilator 5.032 takes no $time in an expression at a port.
-        subsystem = planted(subsystem, r"\n( *logic [^;]*\barray_valid\b[^;]*;)", r"""\n\1
+        gated = planted(gated, r"\n( *logic [^;]*\barray_tvalid\b[^;]*;)", r"""\n\1
   logic fault_side_band = 0;
   always_ff @(posedge clk_i) fault_side_band <= $test$plusargs("fault_side_band") && $time > 5000;
   logic fault_gap;
   always_ff @(posedge clk_i) fault_gap <= $test$plusargs("fault_gap") && $time > 5000 && ($time / 3) % 101 == 0;""")
-        subsystem = planted(subsystem, r"(\.sram_cfg_i\s*)\(sram_cfg_i\)(,\s*\.sram_cfg_o\s*\(array_cfg\))",
+        gated = planted(gated, r"(\.sram_cfg_i\s*)\(sram_cfg_i\)(,\s*\.sram_cfg_o\s*\(sram_cfg_o\))",
                             r"\1(sram_cfg_i ^ {dtof_pkg::SRAM_CFG_WIDTH{fault_side_band}})\2")
-        (cls.folder / "subsystem.sv").write_text(subsystem, encoding="utf-8")
-        files = [str(cls.folder / "subsystem.sv") if line.endswith("/dtof_subsystem.sv") else line
+        (cls.folder / "gated_array.sv").write_text(gated, encoding="utf-8")
+        files = [str(cls.folder / "gated_array.sv") if line.endswith("/dtof_gated_array.sv") else line
                  for line in (HDL / "dtof.f").read_text(encoding="utf-8").splitlines() if line.endswith(".sv") and not line.startswith("//")]
         built = subprocess.run(
             ["verilator", "--cc", "--exe", "--build", "--timing", "--assert", "--coverage-user", "-Wno-fatal", *UNOPTIMISED,

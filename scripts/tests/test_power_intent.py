@@ -21,7 +21,7 @@ READOUTS = {name: int(number) for name, number in re.findall(
     r"localparam int READOUT_(\w+) = (\d+);", (ROOT / "hdl/common/dtof_readouts.svh").read_text(encoding="utf-8"))}  # fmt: skip
 
 FAULTS = {  # file, text, replacement, with a prior, what is said
-    "an output without isolation": ("array", "-applies_to outputs", "-applies_to inputs", True, "port g_pool.u_array.busy_o: 0 isolations"),
+    "an output without isolation": ("array", "-applies_to outputs", "-applies_to inputs", True, "port u_gated_array.g_pool.u_array.busy_o: 0 isolations"),
     "a memory's write enable without isolation": (
         "array", "{read_en_i read_addr_i write_en_i write_addr_i write_data_i}", "{read_en_i read_addr_i write_addr_i write_data_i}", True,
         "u_sram.write_en_i: 0 isolations"),
@@ -31,32 +31,32 @@ FAULTS = {  # file, text, replacement, with a prior, what is said
                                             "write_en_i: clamp 1, but 0"),
     "two strategies for a port": ("array", "-elements {sram_cfg_o} -clamp_value 1", "-elements {sram_cfg_o sram_cfg_o} -clamp_value 1", True,
                                   "strategies iso_side_band and iso_side_band"),
-    "an isolation of a port that is renamed": ("array", "{sram_cfg_o}", "{sram_config_o}", True, "no port g_pool.u_array.sram_config_o"),
+    "an isolation of a port that is renamed": ("array", "{sram_cfg_o}", "{sram_config_o}", True, "no port u_gated_array.g_pool.u_array.sram_config_o"),
     "an isolation that loses its supply": (
         "array", "-clamp_value 0 \\\n    -isolation_supply_set SS_ALWAYS", "-clamp_value 0 \\\n    -isolation_supply_set SS_ARRAY", True,
         "busy_o: the supply of its isolation is off"),
     "an isolation of the memories that loses its supply": ("array", "-isolation_supply_set SS_MEMORY", "-isolation_supply_set SS_ARRAY", True,
                                                            "write_en_i: the supply of its isolation is off"),
     "an isolation signal of nobody": ("array", "isolation_signal isolate_i -isolation_sense high -location self\nset", "isolation_signal isolated_i "
-                                      "-isolation_sense high -location self\nset", True, "logic_port g_pool.u_array.isolated_i is not declared"),
-    "an undeclared supply": ("array", "create_supply_net VDD_ARRAY\n", "", False, "supply_net g_array.u_array.VDD_ARRAY is not declared"),
-    "a supply without a source": ("array", "connect_supply_net VDD -ports {VDD}\n", "", False, "supply net g_array.u_array.VDD has 0 sources"),
-    "a supply with two sources": ("array", "vout VDD_MEMORY", "vout VDD_ARRAY", True, "supply net g_pool.u_array.VDD_ARRAY has 2 sources"),
+                                      "-isolation_sense high -location self\nset", True, "logic_port u_gated_array.g_pool.u_array.isolated_i is not declared"),
+    "an undeclared supply": ("array", "create_supply_net VDD_ARRAY\n", "", False, "supply_net u_gated_array.g_array.u_array.VDD_ARRAY is not declared"),
+    "a supply without a source": ("array", "connect_supply_net VDD -ports {VDD}\n", "", False, "supply net u_gated_array.g_array.u_array.VDD has 0 sources"),
+    "a supply with two sources": ("array", "vout VDD_MEMORY", "vout VDD_ARRAY", True, "supply net u_gated_array.g_pool.u_array.VDD_ARRAY has 2 sources"),
     "a supply of the array that the subsystem does not connect": ("subsystem", "connect_supply_net VDD -ports [list $dtof_array/VDD]\n", "", False,
-                                                                  "supply port g_array.u_array.VDD is not connected"),
+                                                                  "supply port u_gated_array.g_array.u_array.VDD is not connected"),
     "a domain without a supply": ("array", "-elements {.} -supply {primary SS_ARRAY}", "-elements {.}", False, "PD_ARRAY has no primary supply"),
     "a control that the subsystem does not connect": ("subsystem", "{array_on_i isolate_i}", "{array_on_i}", False,
-                                                      "logic port g_array.u_array.isolate_i is not connected"),
+                                                      "logic port u_gated_array.g_array.u_array.isolate_i is not connected"),
     "a switch that is open when its control is high": ("array", "{closed vin {control}} -off_state {open {!control}}\n\n# The",
                                                        "{closed vin {!control}} -off_state {open {control}}\n\n# The", False, "-on_state does not follow"),
     "memories that are renamed": ("array", "{u_sram u_parities}", "{u_ram}", True, "PD_MEMORY has no instance"),
-    "an instance that is not there": ("array", "PD_ARRAY -elements {.}", "PD_ARRAY -elements {. u_gone}", False, "no instance g_array.u_array.u_gone"),
+    "an instance that is not there": ("array", "PD_ARRAY -elements {.}", "PD_ARRAY -elements {. u_gone}", False, "no instance u_gated_array.g_array.u_array.u_gone"),
     "an array that is not there": ("subsystem", "*u_array", "*u_matrix", False, "no instance"),
-    "an instance in two domains": ("subsystem", "PD_SUBSYSTEM -elements {.}", "PD_SUBSYSTEM -elements {. g_array.u_array}", False,
+    "an instance in two domains": ("subsystem", "PD_SUBSYSTEM -elements {.}", "PD_SUBSYSTEM -elements {. u_gated_array.g_array.u_array}", False,
                                   "u_array is in PD_SUBSYSTEM and in"),
     "a memory of the prior in two domains": ("array", "-elements {.} -supply {primary SS_ARRAY}",
                                              "-elements {. {g_quad[0].u_quad/u_sram}} -supply {primary SS_ARRAY}", True,
-                                             "u_sram is in g_pool.u_array.PD_ARRAY and in"),
+                                             "u_sram is in u_gated_array.g_pool.u_array.PD_ARRAY and in"),
     "a subsystem without a domain": ("subsystem", "-elements {.} -supply {primary SS_ALWAYS}", "-elements {u_registers} -supply {primary SS_ALWAYS}", False,
                                      "instance u_frame_control is in no domain"),
     "scratch memories are kept, those of the prior are not": ("array", "{u_sram u_parities}", "{u_scratch_sram}", True, "u_quad.u_sram is not kept"),
@@ -65,12 +65,12 @@ FAULTS = {  # file, text, replacement, with a prior, what is said
     "the prior's state has the memories off": ("array", "SS_ARRAY == off && SS_MEMORY == on", "SS_ARRAY == off && SS_MEMORY == off", True,
                                                "u_sram is not kept"),
     "a state of an unknown supply": ("array", "frame -logic_expr {SS_ARRAY == on &&", "frame -logic_expr {SS_LOGIC == on &&", True,
-                                     "supply_set g_pool.u_array.SS_LOGIC is not declared"),
+                                     "supply_set u_gated_array.g_pool.u_array.SS_LOGIC is not declared"),
     "a state of a supply that has no such state": ("array", "frame -logic_expr {SS_ARRAY == on &&", "frame -logic_expr {SS_ARRAY == full &&", True,
                                                    "supply SS_ARRAY has no state full"),
     "a switched supply without an off state": ("array", " \\\n    -state {off -supply_expr {power == OFF} -simstate CORRUPT}\n\nif", "\n\nif", False,
                                                "SS_ARRAY: states off and on expected"),
-    "a flip-flop that is renamed": ("array", "}ended_q", "}over_q", True, "no register g_pool.u_array.g_prior.over_q"),
+    "a flip-flop that is renamed": ("array", "}ended_q", "}over_q", True, "no register u_gated_array.g_pool.u_array.g_prior.over_q"),
     "the flip-flop of the prior is not kept": ("array", "set_retention ret_prior", "set ignored [list ret_prior", True, ""),
     "a retention that loses its supply": ("array", "-retention_supply_set SS_ALWAYS", "-retention_supply_set SS_ARRAY", True, "its supply may be off"),
     "a retention by a level": ("array", "{restore_i posedge}", "{restore_i high}", True, "-restore_signal needs an edge"),
@@ -108,18 +108,18 @@ class PowerIntent(unittest.TestCase):
 
     def test_the_elaborated_names_are_those_of_the_rtl(self) -> None:
         """What the checks compare with: names, directions, wiring, registers, values between frames."""
-        array = self.pool.scopes["g_pool.u_array"]
+        array = self.pool.scopes["u_gated_array.g_pool.u_array"]
         self.assertEqual((array.module, array.ports["clk_i"], array.ports["busy_o"]), ("dtof_pool_pointer_array", "INPUT", "OUTPUT"))
-        memory = self.pool.scopes["g_pool.u_array.g_quad[1].u_quad.u_sram"]
+        memory = self.pool.scopes["u_gated_array.g_pool.u_array.g_quad[1].u_quad.u_sram"]
         self.assertEqual(memory.sources["clk_i"], array.sources["clk_i"])
         self.assertNotEqual(memory.sources["write_en_i"], array.sources["clk_i"])
-        self.assertIn("memory", self.pool.scopes["g_pool.u_array.g_quad[1].u_quad.u_sram.g_one_port.u_macro"].registers)
-        self.assertEqual(self.pool.idle["g_pool.u_array.busy_o"], "0")
-        self.assertIn("x", self.pool.idle["g_pool.u_array.result_tdata_o"])
+        self.assertIn("memory", self.pool.scopes["u_gated_array.g_pool.u_array.g_quad[1].u_quad.u_sram.g_one_port.u_macro"].registers)
+        self.assertEqual(self.pool.idle["u_gated_array.g_pool.u_array.busy_o"], "0")
+        self.assertIn("x", self.pool.idle["u_gated_array.g_pool.u_array.result_tdata_o"])
 
     def test_a_prior_needs_its_parameter(self) -> None:
         found = power_intent.problems(INTENT / "dtof_subsystem.upf", self.array, PRIOR)
-        self.assertIn("retention ret_prior: no register g_array.u_array.g_prior.ended_q in g_array.u_array.PD_ARRAY", found)
+        self.assertIn("retention ret_prior: no register u_gated_array.g_array.u_array.g_prior.ended_q in u_gated_array.g_array.u_array.PD_ARRAY", found)
 
     def test_planted_faults_are_found(self) -> None:
         for fault, (file, old, new, prior, said) in FAULTS.items():
@@ -138,8 +138,8 @@ class PowerIntent(unittest.TestCase):
 
     def test_faults_of_the_rtl_are_found(self) -> None:
         """A memory's clock that comes from inside of the array; an output that is high between frames."""
-        for path, name, idle, said in (("g_pool.u_array.g_quad[0].u_quad.u_sram", "clk_i", "", "clk_i: 0 isolations"),
-                                       ("g_pool.u_array", "tdc_ready_o", "1", "tdc_ready_o: clamp 0, but 1 between frames")):
+        for path, name, idle, said in (("u_gated_array.g_pool.u_array.g_quad[0].u_quad.u_sram", "clk_i", "", "clk_i: 0 isolations"),
+                                       ("u_gated_array.g_pool.u_array", "tdc_ready_o", "1", "tdc_ready_o: clamp 0, but 1 between frames")):
             scopes = self.pool.scopes
             if not idle:
                 changed = upf.Scope(scopes[path].module, scopes[path].ports, scopes[path].sources | {name: "a gate"}, scopes[path].registers)

@@ -2,8 +2,8 @@
 """Area, timing and power of dtof_subsystem around an array. The array is a black box while the subsystem is mapped, and a cell with the array's
 measured times (array_stand_in.py) while it is timed.
 
-Modules that dtof_subsystem instantiates stay modules, so that each has an area of its own; what is inside them is flattened. Their names come
-from the elaborated netlist. Registers with a common enable get clock gates, as in the columns, except those of dtof_subsystem itself.
+The parts of dtof_subsystem stay modules, so that each has an area of its own; what is inside them is flattened. A path of dtof_subsystem (PATHS),
+which only connects parts, becomes a piece of dtof_subsystem itself. The names of the parts come from the elaborated netlist. Registers with a common enable get clock gates, as in the columns, except those of dtof_subsystem itself.
 All wires have the library's wire load: there is no floorplan of the subsystem.
 """
 
@@ -38,6 +38,7 @@ from .timing import Margin
 TOP = "dtof_subsystem"
 CONFIGURATIONS = ("ezpointer", "hispointer", "coarsehistogram", "poolpointer", "poolpointer_lean")
 ARRAYS = ("dtof_array", "dtof_pool_pointer_array")
+PATHS = ("dtof_line_path", "dtof_gated_array", "dtof_result_path", "dtof_optional_self_test")
 CLOCK_GATE = "dtof_clock_gate"
 CORNERS = ("slow", "typical", "fast")
 EFFORTS = (mapping.LAYOUT_EFFORT, mapping.EFFORTS[-1])  # the first that closes with margins is taken, else the one that misses by least
@@ -150,7 +151,7 @@ def generic(configuration: Configuration, technology: Technology, folder: Path) 
         "scripts": root / "synth" / "yosys", "top": TOP, "rtl_files": list(mapping.rtl_files(root)), "rtl_include": root / "hdl" / "common",
         "technology_files": [*technology_files, gate], "black_boxes": black_boxes, "liberty": technology.slow.path,
         "parameters": dict(parameters(configuration, root)), "array_modules": [f"*{name}" for name in ARRAYS],
-        "elaborated_netlist": elaborated, "generic_netlist": folder / "generic.il"}
+        "path_modules": [f"*{name}*" for name in PATHS], "elaborated_netlist": elaborated, "generic_netlist": folder / "generic.il"}
     written = folder / "generic_settings.tcl"
     tools.write_settings(written, settings)
     tools.run_yosys(root / "synth" / "subsystem" / "elaborate.tcl", written, folder / "elaborate.log", configuration.name)

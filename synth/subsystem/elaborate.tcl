@@ -6,6 +6,11 @@ puts "DTOF_STEP read"
 source $scripts/1_read.tcl
 blackbox {*}$array_modules
 hierarchy -check -top $top
+# The paths become pieces of the top.
+setattr -mod -set keep_hierarchy 1 *
+setattr -mod -unset keep_hierarchy $top {*}$path_modules
+flatten
+setattr -mod -unset keep_hierarchy *
 puts "DTOF_STEP check"
 source $scripts/2_check_rtl.tcl
 opt_clean -purge

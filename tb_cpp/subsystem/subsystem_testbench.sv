@@ -9,76 +9,47 @@ module subsystem_testbench #(
     parameter AXI_LITE = 0,
     // parameters of the arrays: written by scripts/generate.py from readouts.toml
     // verilator lint_off UNUSEDPARAM
-    // bits of a TDC timestamp
-    parameter int NP = 10,
+    parameter int NP = 10,                        // bits of a TDC timestamp
     // bits of the coarse histogram index
     parameter int NB = (READOUT == dtof_pkg::READOUT_SIFH) ? (NP / 2) + 1
         : (READOUT == dtof_pkg::READOUT_PIFH) ? dtof_pkg::min_of(NP, 6)
         : (READOUT == dtof_pkg::READOUT_HISTOGRAM) ? NP
         : (READOUT == dtof_pkg::READOUT_COARSEHISTOGRAM) ? dtof_pkg::min_of(NP, 5)
         : NP / 2,
-    // pixels a column serves
-    parameter int PIXELS_PER_SRAM = 160,
-    // columns working in parallel
-    parameter int SRAM_NUM = 200,
-    // timestamps per pixel and acquisition
-    parameter int SLOTS = 2,
+    parameter int PIXELS_PER_SRAM = 160,          // pixels a column serves
+    parameter int SRAM_NUM = 200,                 // columns working in parallel
+    parameter int SLOTS = 2,                      // timestamps per pixel and acquisition
     // bits of a histogram bin, a counter that never wraps
     parameter int COUNT_WIDTH = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 7
         : 10,
-    // bins a pointer moves per timestamp
-    parameter int POINTER_STEP = 1,
+    parameter int POINTER_STEP = 1,               // bins a pointer moves per timestamp
     // fractional bits of the pointer
     parameter int FRACTION_BITS = (READOUT == dtof_pkg::READOUT_COARSEHISTOGRAM) ? dtof_pkg::min_of(2, (16 - NP))
         : 0,
-    // bits of a pointer's confidence, 0 for none
-    parameter int CONFIDENCE_WIDTH = 4,
-    // hisPointer: side band beyond half a coarse bin, the FWHM of 2 ns in 45 ns
-    parameter int GUARD = ((2 << NP) + 44) / 45,
-    // SiFH: window centred on the coarse bin (Fig. 3.8) instead of Eq. 2.5
-    parameter int WINDOW_CENTRED = 0,
-    // ports of the pointer SRAM; 1 halves its cell
-    parameter int POINTER_PORTS = 2,
-    // one status bit an address instead of clearing
-    parameter int SIGNALLED_CLEAR = 0,
-    // 1: each word of the SRAMs has a parity bit, which is checked at each read
-    parameter int PARITY = 0,
-    // 1: only timestamps from `gate_begin_i` to below `gate_end_i` count
-    parameter int TIME_GATE = 0,
-    // 1: a frame may send histograms instead of results (`raw_i`)
-    parameter int RAW_HISTOGRAM = 0,
-    // bits of the run-time number of acquisitions
-    parameter int ACQ_WIDTH = 16,
-    // registers between the shared logic and the columns; they delay, and change no result
-    parameter int BROADCAST_STAGES = 2,
-    // rows of a group, which shares a coarse histogram
-    parameter int GROUP_SIZE = 4,
-    // candidates of a group
-    parameter int LABELS = 5,
-    // bits of their scores
-    parameter int SCORE_BITS = 4,
-    // bits of a leader's offset in the track phase, 0 for none
-    parameter int OFFSET_BITS = 6,
-    // bits of the leader's advantage
-    parameter int ADVANTAGE_WIDTH = 7,
-    // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins
-    parameter int POINTER_SHIFT = 1,
-    // 1: the rival has a pointer of its own
-    parameter int RIVAL_MOVES = 1,
-    // windows of a settled pointer: 8 for pulses below 0.75 coarse bins (FWHM), 10 from 2.25
-    parameter int CELL_SHIFT = 9,
-    // 1: a result has the position of the label that lost, too
-    parameter int SECOND_TARGET = 0,
-    // 1: a result has amplitude and ambient, too
-    parameter int AMPLITUDE = 0,
-    // 1: candidates may begin from those that were used in the last frame (`prior_i`)
-    parameter int PRIOR = 0,
-    // columns that share an engine
-    parameter int ENGINE_COLUMNS = 34,
-    // 64ths of a frame that the coarse phase is recommended to take
-    parameter int COARSE_SHARE = 14,
-    // 64ths of a frame that the track phase is recommended to take
-    parameter int TRACK_SHARE = 30,
+    parameter int CONFIDENCE_WIDTH = 4,           // bits of a pointer's confidence, 0 for none
+    parameter int GUARD = ((2 << NP) + 44) / 45,  // hisPointer: side band beyond half a coarse bin, the FWHM of 2 ns in 45 ns
+    parameter int WINDOW_CENTRED = 0,             // SiFH: window centred on the coarse bin (Fig. 3.8) instead of Eq. 2.5
+    parameter int POINTER_PORTS = 2,              // ports of the pointer SRAM; 1 halves its cell
+    parameter int SIGNALLED_CLEAR = 0,            // one status bit an address instead of clearing
+    parameter int PARITY = 0,                     // 1: each word of the SRAMs has a parity bit, which is checked at each read
+    parameter int TIME_GATE = 0,                  // 1: only timestamps from `gate_begin_i` to below `gate_end_i` count
+    parameter int RAW_HISTOGRAM = 0,              // 1: a frame may send histograms instead of results (`raw_i`)
+    parameter int ACQ_WIDTH = 16,                 // bits of the run-time number of acquisitions
+    parameter int BROADCAST_STAGES = 2,           // registers between the shared logic and the columns; they delay, and change no result
+    parameter int GROUP_SIZE = 4,                 // rows of a group, which shares a coarse histogram
+    parameter int LABELS = 5,                     // candidates of a group
+    parameter int SCORE_BITS = 4,                 // bits of their scores
+    parameter int OFFSET_BITS = 6,                // bits of a leader's offset in the track phase, 0 for none
+    parameter int ADVANTAGE_WIDTH = 7,            // bits of the leader's advantage
+    parameter int POINTER_SHIFT = 1,              // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins
+    parameter int RIVAL_MOVES = 1,                // 1: the rival has a pointer of its own
+    parameter int CELL_SHIFT = 9,                 // windows of a settled pointer: 8 for pulses below 0.75 coarse bins (FWHM), 10 from 2.25
+    parameter int SECOND_TARGET = 0,              // 1: a result has the position of the label that lost, too
+    parameter int AMPLITUDE = 0,                  // 1: a result has amplitude and ambient, too
+    parameter int PRIOR = 0,                      // 1: candidates may begin from those that were used in the last frame (`prior_i`)
+    parameter int ENGINE_COLUMNS = 34,            // columns that share an engine
+    parameter int COARSE_SHARE = 14,              // 64ths of a frame that the coarse phase is recommended to take
+    parameter int TRACK_SHARE = 30,               // 64ths of a frame that the track phase is recommended to take
     // verilator lint_on UNUSEDPARAM
     // end of parameters of the arrays
     parameter CLOCK_WAITS = 1,
@@ -280,16 +251,16 @@ module subsystem_testbench #(
   assign probe_watchdog_o = 32'(u_subsystem.watchdog);
   assign probe_commit_o = u_subsystem.u_registers.commit;
   assign probe_reseed_o = u_subsystem.shot_reseed;
-  assign probe_waits_o = u_subsystem.line_waits;
+  assign probe_waits_o = u_subsystem.u_line_path.line_waits;
   assign probe_array_valid_o = u_subsystem.array_valid;
   assign probe_dropped_o = u_subsystem.dropped;
-  assign probe_line_valid_o = u_subsystem.tdc_valid;
-  assign probe_line_ready_o = u_subsystem.line_ready;
+  assign probe_line_valid_o = u_subsystem.u_line_path.buffer_valid;
+  assign probe_line_ready_o = u_subsystem.u_line_path.buffer_ready;
   assign probe_test_begin_o = u_subsystem.begin_frame && u_subsystem.test_chosen;
   assign probe_test_frame_o = u_subsystem.test_frame;
   assign probe_running_o = u_subsystem.running;
-  assign probe_test_take_o = u_subsystem.test_frame && u_subsystem.array_valid && u_subsystem.tdc_ready;
-  assign probe_line_o = BUS_WIDTH'(u_subsystem.array_line);
+  assign probe_test_take_o = u_subsystem.test_frame && u_subsystem.array_valid && u_subsystem.array_ready;
+  assign probe_line_o = BUS_WIDTH'(u_subsystem.u_line_path.array_line);
 
   // Every SRAM's side band: the stand-ins answer what they are told, which is another value in every frame.
   always_ff @(posedge clk_i) begin
@@ -309,7 +280,7 @@ module subsystem_testbench #(
       clocks <= clocks + 1'b1;
     end
   end
-  always_ff @(posedge u_subsystem.array_clk or negedge rst_ni) begin
+  always_ff @(posedge u_subsystem.u_gated_array.array_clk or negedge rst_ni) begin
     if (!rst_ni) begin
       array_clocks <= '0;
     end else if (array_clocks != '1) begin
