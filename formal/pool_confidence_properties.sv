@@ -74,6 +74,8 @@ module pool_confidence_properties #(
     excess = (excess < 0) ? 0 : excess;
     part = excess / first + excess / second;
     expected = weight + (tilted[1] ? 0 : (part > 127) ? 127 : part);
+    own = (own > 15) ? 15 : own;
+    expected = (expected < own) ? own : expected;
   end
 
   `PROVE(a_confidence, t_q != 4'd6 || 32'(confidence) == expected)

@@ -12,7 +12,7 @@
 //
 // Schedule: that of dtof_smoothing; near_i is valid one clock after take_distances_i. Latency: confidence_o is valid two clocks after
 // take_distances_i, until the next row enters.
-// Cost: five margins, six adders, about 80 flip-flops, per engine.
+// Cost: five margins, six adders, a comparator, about 85 flip-flops, per engine.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -38,6 +38,7 @@ module dtof_pool_confidence #(
   localparam int POOLED_WIDTH = CONFIDENCE_WIDTH + 2;
   localparam int WEIGHT_WIDTH = 7;
   localparam int MOST_ABOVE = 127;
+  localparam int OWN_WIDTH = 4;
 
   logic [CONFIDENCE_WIDTH-1:0] above_q, centre_q, below_q, left_q, below_left_q;
   logic [KEPT_WIDTH-1:0] significance_q, below_significance_q;
@@ -93,6 +94,8 @@ module dtof_pool_confidence #(
   logic [CONFIDENCE_WIDTH-1:0] above, below, left;
   logic [POOLED_WIDTH-1:0] sum;
   logic [WEIGHT_WIDTH-1:0] above_sky;
+  logic [OWN_WIDTH-1:0] own_q;  // the pixel's own margin, at most all ones
+  logic [CONFIDENCE_WIDTH-1:0] evidence;
 
   assign above = above_q & {CONFIDENCE_WIDTH{near_i[0]}};
   assign below = below_q & {CONFIDENCE_WIDTH{near_i[1]}};
@@ -105,12 +108,14 @@ module dtof_pool_confidence #(
       excess_q <= (pooled > POOLED_WIDTH'(mean)) ? pooled - POOLED_WIDTH'(mean) : '0;
       weight_q <= ((CONFIDENCE_WIDTH + 2)'({centre_q, 2'b00}) < (CONFIDENCE_WIDTH + 2)'(weight)) ? {centre_q[WEIGHT_WIDTH-3:0], 2'b00}
           : weight;
+      own_q <= (centre_q[CONFIDENCE_WIDTH-1:OWN_WIDTH] != '0) ? '1 : centre_q[OWN_WIDTH-1:0];
     end
   end
 
   assign sum = first_part + second_part;
   assign above_sky = (sum > POOLED_WIDTH'(MOST_ABOVE)) ? WEIGHT_WIDTH'(MOST_ABOVE) : sum[WEIGHT_WIDTH-1:0];
-  assign confidence_o = CONFIDENCE_WIDTH'(weight_q) + (CONFIDENCE_WIDTH'(above_sky) & {CONFIDENCE_WIDTH{!tilted_q}});
+  assign evidence = CONFIDENCE_WIDTH'(weight_q) + (CONFIDENCE_WIDTH'(above_sky) & {CONFIDENCE_WIDTH{!tilted_q}});
+  assign confidence_o = (evidence < CONFIDENCE_WIDTH'(own_q)) ? CONFIDENCE_WIDTH'(own_q) : evidence;
 
 endmodule
 

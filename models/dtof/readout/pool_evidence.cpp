@@ -30,6 +30,7 @@ constexpr std::array<SkyMargin, 10> kSky = {{{18, 2, 3},
                                              {255, 5, 6}}};
 constexpr int kMostPooled = 127;
 constexpr int kPerOwnMargin = 4;
+constexpr int kMostOfOwnMargin = 15;  // what the pixel's own margin gives without other evidence
 
 constexpr std::uint32_t kShortFrame = 3333;
 constexpr int kMostOffset = 31;
@@ -77,12 +78,14 @@ int kept_significance(int significance, int bits) {
 int pool_confidence(int significance, int bits, const PooledMargin& margin, int background, bool tilted) {
   const auto z = static_cast<std::size_t>(significance);
   const int weight = std::min(bits == 3 ? kWeights[z] : kShortWeights[z], kPerOwnMargin * margin.own);
+  const int least = std::min(margin.own, kMostOfOwnMargin);
   if (tilted) {
-    return weight;
+    return std::max(weight, least);
   }
   const SkyMargin& sky = kSky[static_cast<std::size_t>(background >> 2)];
   const int above = std::max(margin.own + margin.others - sky.mean, 0);
-  return weight + std::min((above >> sky.shift) + (above >> sky.second_shift), kMostPooled);
+  const int pooled = std::min((above >> sky.shift) + (above >> sky.second_shift), kMostPooled);
+  return std::max(weight + pooled, least);
 }
 
 }  // namespace dtof

@@ -101,12 +101,13 @@ TEST(KeptSignificance, KeepsTheUpperLevelsInTwoBits) {
 }
 
 TEST(PoolConfidence, GrowsWithSignificanceAndMargins) {
+  constexpr int kOfOwnMargin = 15;  // all that small evidence gives
   for (const int bits : {2, 3}) {
     for (int background = 0; background < 40; ++background) {
       int last = -1;
       for (int z = 0; z < 1 << bits; ++z) {
         const int confidence = pool_confidence(z, bits, {.own = 30, .others = 0}, background, false);
-        EXPECT_GT(confidence, last);
+        EXPECT_TRUE(confidence > last || confidence == kOfOwnMargin) << z;
         last = confidence;
       }
       last = -1;
@@ -123,7 +124,17 @@ TEST(PoolConfidence, GrowsWithSignificanceAndMargins) {
 TEST(PoolConfidence, IsZeroWithoutEvidence) {
   EXPECT_EQ(pool_confidence(0, 3, {0, 0}, 0, false), 0);
   EXPECT_EQ(pool_confidence(7, 3, {0, 0}, 0, false), 0);
-  EXPECT_EQ(pool_confidence(0, 3, {4, 14}, 0, false), 0);
+  EXPECT_EQ(pool_confidence(0, 3, {0, 18}, 0, false), 0);
+}
+
+TEST(PoolConfidence, IsAtLeastTheOwnMarginUpToFifteen) {
+  for (const bool tilted : {false, true}) {
+    EXPECT_EQ(pool_confidence(0, 3, {1, 0}, 39, tilted), 1);
+    EXPECT_EQ(pool_confidence(0, 3, {14, 0}, 39, tilted), 14);
+    EXPECT_EQ(pool_confidence(0, 3, {16, 0}, 39, tilted), 15);
+    EXPECT_EQ(pool_confidence(1, 3, {16, 0}, 39, tilted), 15);  // the significance alone gives 13
+    EXPECT_EQ(pool_confidence(2, 3, {16, 0}, 39, tilted), 16);
+  }
 }
 
 TEST(PoolConfidence, ThePixelsOwnMarginLimitsWhatItsGroupSays) {

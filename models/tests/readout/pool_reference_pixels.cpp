@@ -327,8 +327,9 @@ int PoolReference::confidence(Place place) {
   const std::vector<int> weights =
       open_.prior ? std::vector{0, 22, 32, 64} : std::vector{0, 13, 16, 20, 24, 29, 35, 64};
   const int weight = std::min(weights[static_cast<std::size_t>(pixel.significance)], 4 * own);
+  const int alone = own > 15 ? 15 : own;
   if (g.tilted) {
-    return weight;
+    return weight > alone ? weight : alone;
   }
   int pooled = own;
   for (const Place at : near_places(place, [](const Pixel& other) { return other.winner; })) {
@@ -344,7 +345,8 @@ int PoolReference::confidence(Place place) {
                                   {28, 128, {16, 512}}, {32, 200, {32, 64}}, {40, 255, {32, 64}}};
   const auto sky = std::find_if(skies.begin(), skies.end(), [&](const Sky& s) { return g.b < s.below; });
   const int above = std::max(0, pooled - sky->mean);
-  return weight + std::min(127, above / sky->parts[0] + above / sky->parts[1]);
+  const int evidence = weight + std::min(127, above / sky->parts[0] + above / sky->parts[1]);
+  return evidence > alone ? evidence : alone;
 }
 
 int PoolReference::counts(int n) const {
