@@ -21,6 +21,7 @@ thesis/dtof_result_output.sv
 pool/dtof_pair_sequencer.sv
 pool/dtof_pool_controller.sv
 pool/dtof_pool_result_output.sv
+pool/dtof_pool_result_path.sv
 pool/dtof_pool_sequencer.sv
 thesis/dtof_data_filter.sv
 thesis/dtof_histogram_builder.sv
@@ -63,7 +64,9 @@ pool/dtof_pool_pair.sv
 pool/dtof_pool_word_parity.sv
 pool/dtof_pool_quad.sv
 pool/dtof_pool_parity_store.sv
+pool/dtof_pool_parity.sv
 thesis/dtof_array.sv
+pool/dtof_pool_control.sv
 pool/dtof_pool_pointer_array.sv
 subsystem/dtof_line_buffer.sv
 subsystem/dtof_watchdog.sv

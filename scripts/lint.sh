@@ -16,7 +16,7 @@ fi
 scripts/schedule.py --check & schedule=$!
 scripts/check_types.py & types=$!
 
-mapfile -t sources < <(scripts/list_files.py .cpp .hpp driver/dtof.h driver/dtof.c driver/dtof_filter.h driver/dtof_filter.c examples/soc/software.h examples/soc/software.c)
+mapfile -t sources < <(scripts/list_files.py .cpp .hpp .c driver/dtof.h driver/dtof_access.h driver/dtof_filter.h examples/soc/software.h)
 format=clang-format-$format_version
 command -v "$format" > /dev/null || format=clang-format
 installed=$("$format" --version | sed -nE 's/.*version ([0-9]+).*/\1/p')

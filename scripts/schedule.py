@@ -41,9 +41,9 @@ module schedule_bench;
       .tdc_timestamp_i('0), .result_tvalid_o(), .result_tready_i(1'b1), .result_tdata_o(), .result_tlast_o());
   always #1 clk = !clk;
   always @(negedge clk) begin
-    $display("%b%b%b %b %0d %b", u_array.u_sequencer.decoding, u_array.u_sequencer.choosing,
-             u_array.u_sequencer.deciding, u_array.u_sequencer.back_q, u_array.u_sequencer.t_q,
-             {u_array.u_sequencer.columns, u_array.u_sequencer.command});
+    $display("%b%b%b %b %0d %b", u_array.u_control.u_sequencer.decoding, u_array.u_control.u_sequencer.choosing,
+             u_array.u_control.u_sequencer.deciding, u_array.u_control.u_sequencer.back_q, u_array.u_control.u_sequencer.t_q,
+             {u_array.u_control.u_sequencer.columns, u_array.u_control.u_sequencer.command});
   end
   initial begin
     #4 rst_n = 1'b1;

@@ -414,8 +414,10 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
   }
   files["driver/check.c"] = filled("check.c", values);
   files["driver/dtof_product.h"] = driver_header(request, self_test);
-  for (const char* name : {"dtof.c", "dtof.h", "dtof_registers.h"}) {
-    files[fmt::format("driver/{}", name)] = source(fmt::format("driver/{}", name));
+  for (const SourceFile& file : project_sources()) {
+    if (file.path.starts_with("driver/") && !file.path.starts_with("driver/dtof_filter.")) {
+      files[std::string(file.path)] = file.text;
+    }
   }
   files["vectors/timestamps.hex"] = std::move(vectors.timestamps);
   files["vectors/results.hex"] = std::move(vectors.results);

@@ -54,7 +54,7 @@ def parameters(readout: str, given: dict[str, int]) -> dict[str, int]:
 class DtofSubsystem(LiteXModule):
     """`readout` and further parameters of docs/user/configuration.md, in lower case: np, sram_num (columns), pixels_per_sram (rows), ...
 
-    bus      AXILiteInterface: the registers, 4 KiB; the driver is driver/dtof.c
+    bus      AXILiteInterface: the registers, 4 KiB; the driver is driver/dtof.h
     ev.irq   the interrupt, a level; IRQ_ENABLE chooses its causes
     lines    stream.Endpoint, sink: data is a timestamp of every column, column 0 lowest; last ends an acquisition
     results  stream.Endpoint, source: data is a result word of 64 bits; first and last are a frame's

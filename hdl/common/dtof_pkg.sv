@@ -189,6 +189,13 @@ package dtof_pkg;
     pool_part_width = (line_halves == 1) ? 1 : 2;
   endfunction
 
+  // Bits of sent_t (dtof_pool_commands.svh); `pairs` is that of a full and of the last engine.
+  function automatic int pool_sent_width(input int np, input int address_width, input int row_width, input int pairs,
+                                         input int part_width);
+    pool_sent_width = 2 * np + address_width + row_width + pairs + part_width + POOL_COMMAND_WIDTH
+        + POOL_SIGNIFICANCE_OFFSET_WIDTH + POOL_TEMPLATE_WIDTH + POOL_THINNING_WIDTH + 32;
+  endfunction
+
   // Bits of a result's confidence: the advantage and both neighbours' penalties.
   function automatic int pool_confidence_width(input int advantage_width);
     pool_confidence_width = $clog2((1 << advantage_width) + 16);

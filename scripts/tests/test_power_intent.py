@@ -70,7 +70,7 @@ FAULTS = {  # file, text, replacement, with a prior, what is said
                                                    "supply SS_ARRAY has no state full"),
     "a switched supply without an off state": ("array", " \\\n    -state {off -supply_expr {power == OFF} -simstate CORRUPT}\n\nif", "\n\nif", False,
                                                "SS_ARRAY: states off and on expected"),
-    "a flip-flop that is renamed": ("array", "}ended_q", "}over_q", True, "no register u_gated_array.g_pool.u_array.g_prior.over_q"),
+    "a flip-flop that is renamed": ("array", "}ended_q", "}over_q", True, "no register u_gated_array.g_pool.u_array.u_control.g_prior.over_q"),
     "the flip-flop of the prior is not kept": ("array", "set_retention ret_prior", "set ignored [list ret_prior", True, ""),
     "a retention that loses its supply": ("array", "-retention_supply_set SS_ALWAYS", "-retention_supply_set SS_ARRAY", True, "its supply may be off"),
     "a retention by a level": ("array", "{restore_i posedge}", "{restore_i high}", True, "-restore_signal needs an edge"),
@@ -119,7 +119,7 @@ class PowerIntent(unittest.TestCase):
 
     def test_a_prior_needs_its_parameter(self) -> None:
         found = power_intent.problems(INTENT / "dtof_subsystem.upf", self.array, PRIOR)
-        self.assertIn("retention ret_prior: no register u_gated_array.g_array.u_array.g_prior.ended_q in u_gated_array.g_array.u_array.PD_ARRAY", found)
+        self.assertIn("retention ret_prior: no register u_gated_array.g_array.u_array.u_control.g_prior.ended_q in u_gated_array.g_array.u_array.PD_ARRAY", found)
 
     def test_planted_faults_are_found(self) -> None:
         for fault, (file, old, new, prior, said) in FAULTS.items():

@@ -123,7 +123,7 @@ class Repairs(unittest.TestCase):
         timed = part_of(run._Netlist, configuration=pool)
         for start, end, engine in (("received[145]", "g_quad[14].u_quad/g_pair[1].u_pair.leader_cell_q[0]", 1), ("received[1]", "g_quad[0].u_quad/u_sram", 0),
                                    ("g_quad[49].u_quad/u_sram", "u_parity_store.accessed_q[3]", 5), ("rst_ni", "g_engine[3].u_engine/above_valid_q", 3),
-                                   ("start_i", "u_controller.state_q[0]", 0)):
+                                   ("start_i", "u_control.u_controller.state_q[0]", 0)):
             with self.subTest(end=end):
                 self.assertEqual(run._Netlist.engine_of(timed, replace(MARGIN, start=start, end=end)), engine)
 

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "dtof/core/error.hpp"
 #include "dtof/io/input_file.hpp"
@@ -23,6 +24,7 @@ namespace {
 using test::Outcome;
 using test::run_shell;
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::ThrowsMessage;
@@ -257,6 +259,17 @@ TEST(ProductFiles, OfALargeArrayLeaveIcarusVerilogOutOfMake) {
   EXPECT_THAT(files.at("Makefile"), HasSubstr("\nall: verilator driver\n"));
   EXPECT_THAT(files.at("Makefile"), HasSubstr("PASS: verilator, driver"));
   EXPECT_THAT(files.at("README.md"), HasSubstr("`make icarus` does the same"));
+}
+
+TEST(ProductFiles, HaveTheDriverWithoutTheFilter) {
+  std::vector<std::string> names;
+  for (const auto& [path, text] : product_files(request(Readout::kEzPointer))) {
+    if (path.starts_with("driver/")) {
+      names.push_back(path.substr(7));
+    }
+  }
+  EXPECT_THAT(names, ElementsAre("check.c", "dtof.h", "dtof_access.h", "dtof_control.c", "dtof_product.h",
+                                 "dtof_registers.h", "dtof_results.c", "dtof_setup.c"));
 }
 
 TEST(ProductFiles, NameEachOther) {
