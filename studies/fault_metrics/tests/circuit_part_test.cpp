@@ -17,15 +17,16 @@ TEST(CircuitPart, FollowsTheInstancesOfTheName) {
       CircuitPart::kParityCheck);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\u_sram.$abc$1"), CircuitPart::kMemoryControl);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\g_parity.u_word_parity.$abc$1"), CircuitPart::kParityCheck);
-  EXPECT_EQ(part("$flatten\\g_parity.u_parity_store.$abc$1"), CircuitPart::kParityCheck);
+  EXPECT_EQ(part("$flatten\\u_parity.\\g_parity.u_parity_store.$abc$1"), CircuitPart::kParityCheck);
   EXPECT_EQ(part("$flatten\\g_engine[0].u_engine.\\u_scratch_sram.\\u_words.$abc$1"),
             CircuitPart::kMemoryControl);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.\\g_pair[1].u_pair.$abc$1"), CircuitPart::kColumns);
   EXPECT_EQ(part("$flatten\\g_quad[0].u_quad.$abc$1"), CircuitPart::kMemoryControl);
   EXPECT_EQ(part("$flatten\\g_engine[0].u_engine.\\u_choose.$abc$1"), CircuitPart::kEngines);
   EXPECT_EQ(part("$flatten\\g_engine[0].u_engine.\\u_parity_link.$abc$1"), CircuitPart::kParityCheck);
-  EXPECT_EQ(part("$flatten\\u_parity_head.$abc$1"), CircuitPart::kParityCheck);
+  EXPECT_EQ(part("$flatten\\u_parity.\\u_parity_head.$abc$1"), CircuitPart::kParityCheck);
   EXPECT_EQ(part("$flatten\\u_result_output.$abc$1"), CircuitPart::kOutput);
+  EXPECT_EQ(part("$flatten\\u_result_path.\\u_result_output.$abc$1"), CircuitPart::kOutput);
   EXPECT_EQ(part("$flatten\\g_column[3].x.u_column.\\u_result_register.$abc$1"), CircuitPart::kOutput);
   EXPECT_EQ(part("$flatten\\u_pass_sequencer.$abc$1"), CircuitPart::kControl);
   EXPECT_EQ(part("$abc$5251$auto$blifparse.cc:386:parse_blif$5253"), CircuitPart::kControl);
@@ -35,8 +36,8 @@ TEST(CircuitPart, IsRepeatedWithItsColumnOrEngine) {
   EXPECT_EQ(repeated_of_cell("$flatten\\g_column[0].u_column.\\u_result_register.$abc$1"), Repeated::kColumn);
   EXPECT_EQ(repeated_of_cell("$flatten\\g_quad[0].u_quad.$abc$1"), Repeated::kColumn);
   EXPECT_EQ(repeated_of_cell("$flatten\\g_engine[0].u_engine.$abc$1"), Repeated::kEngine);
-  EXPECT_EQ(repeated_of_cell("$flatten\\g_parity.u_parity_store.$abc$1"), Repeated::kColumn);
-  EXPECT_EQ(repeated_of_cell("$flatten\\u_controller.$abc$1"), Repeated::kArray);
+  EXPECT_EQ(repeated_of_cell("$flatten\\u_parity.\\g_parity.u_parity_store.$abc$1"), Repeated::kColumn);
+  EXPECT_EQ(repeated_of_cell("$flatten\\u_control.\\u_controller.$abc$1"), Repeated::kArray);
 }
 
 TEST(CircuitPart, KnowsWhichBitsOfAMemoryAreParities) {
@@ -44,7 +45,7 @@ TEST(CircuitPart, KnowsWhichBitsOfAMemoryAreParities) {
             1U);
   EXPECT_EQ(parity_bits_of_memory("g_engine[0].u_engine.u_scratch_sram.u_words.u_macro", 37), 4U);
   EXPECT_EQ(parity_bits_of_memory("g_quad[0].u_quad.u_sram.g_one_port.u_macro", 232), 0U);
-  EXPECT_EQ(parity_bits_of_memory("g_parity.u_parity_store.u_parities.g_one_port.u_macro", 50), 50U);
+  EXPECT_EQ(parity_bits_of_memory("u_parity.g_parity.u_parity_store.u_parities.g_one_port.u_macro", 50), 50U);
 }
 
 }  // namespace
