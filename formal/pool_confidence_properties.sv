@@ -74,7 +74,7 @@ module pool_confidence_properties #(
     excess = (excess < 0) ? 0 : excess;
     part = excess / first + excess / second;
     expected = weight + (tilted[1] ? 0 : (part > 127) ? 127 : part);
-    own = (own > 15) ? 15 : own;
+    own = (own > 13) ? 13 : own;
     expected = (expected < own) ? own : expected;
   end
 

@@ -12,7 +12,7 @@
 //
 // Schedule: that of dtof_smoothing; near_i is valid one clock after take_distances_i. Latency: confidence_o is valid two clocks after
 // take_distances_i, until the next row enters.
-// Cost: five margins, six adders, a comparator, about 85 flip-flops, per engine.
+// Cost: five margins, six adders, about 90 flip-flops, per engine.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -38,7 +38,8 @@ module dtof_pool_confidence #(
   localparam int POOLED_WIDTH = CONFIDENCE_WIDTH + 2;
   localparam int WEIGHT_WIDTH = 7;
   localparam int MOST_ABOVE = 127;
-  localparam int OWN_WIDTH = 4;
+  localparam int LEAST_WIDTH = 4;
+  localparam int MOST_LEAST = 13;
 
   logic [CONFIDENCE_WIDTH-1:0] above_q, centre_q, below_q, left_q, below_left_q;
   logic [KEPT_WIDTH-1:0] significance_q, below_significance_q;
@@ -55,26 +56,23 @@ module dtof_pool_confidence #(
     end
   end
 
-  // Sky: the mean of the margins, and the two shifts that divide the excess.
+  // Sky: the mean of the margins, and the two shifts that divide the excess. The shifts are decoded one clock ahead.
 
   logic [7:0] mean;
+  logic [3:0] first, first_q;    // [n]: the first part is the excess >> n + 2
+  logic [3:0] second, second_q;  // [n]: the second part is the excess >> 3, 4, 6 or 9
   logic [POOLED_WIDTH-1:0] pooled, excess_q, first_part, second_part;
 
   // Tables are expressions, because Yosys makes a memory of a case with constants.
   assign mean = (sky_q == 4'd0) ? 8'd18 : (sky_q == 4'd1) ? 8'd10 : (sky_q == 4'd2) ? 8'd14 : (sky_q == 4'd3) ? 8'd22
       : (sky_q == 4'd4) ? 8'd36 : (sky_q == 4'd5) ? 8'd64 : (sky_q == 4'd6) ? 8'd128 : (sky_q == 4'd7) ? 8'd200 : 8'd255;
+  assign first = {sky_q >= 4'd7, sky_q == 4'd5 || sky_q == 4'd6, sky_q == 4'd3 || sky_q == 4'd4, sky_q <= 4'd2};
+  assign second = {sky_q == 4'd4 || sky_q == 4'd6, sky_q == 4'd5 || sky_q >= 4'd7, sky_q == 4'd2 || sky_q == 4'd3, sky_q <= 4'd1};
 
-  always_comb begin
-    case (sky_q)
-      4'd0, 4'd1: {first_part, second_part} = {excess_q >> 2, excess_q >> 3};
-      4'd2: {first_part, second_part} = {excess_q >> 2, excess_q >> 4};
-      4'd3: {first_part, second_part} = {excess_q >> 3, excess_q >> 4};
-      4'd4: {first_part, second_part} = {excess_q >> 3, excess_q >> 9};
-      4'd5: {first_part, second_part} = {excess_q >> 4, excess_q >> 6};
-      4'd6: {first_part, second_part} = {excess_q >> 4, excess_q >> 9};
-      default: {first_part, second_part} = {excess_q >> 5, excess_q >> 6};
-    endcase
-  end
+  assign first_part = ((excess_q >> 2) & {POOLED_WIDTH{first_q[0]}}) | ((excess_q >> 3) & {POOLED_WIDTH{first_q[1]}})
+      | ((excess_q >> 4) & {POOLED_WIDTH{first_q[2]}}) | ((excess_q >> 5) & {POOLED_WIDTH{first_q[3]}});
+  assign second_part = ((excess_q >> 3) & {POOLED_WIDTH{second_q[0]}}) | ((excess_q >> 4) & {POOLED_WIDTH{second_q[1]}})
+      | ((excess_q >> 6) & {POOLED_WIDTH{second_q[2]}}) | ((excess_q >> 9) & {POOLED_WIDTH{second_q[3]}});
 
   // Weight of the significance, limited by the pixel's own margin.
 
@@ -94,8 +92,8 @@ module dtof_pool_confidence #(
   logic [CONFIDENCE_WIDTH-1:0] above, below, left;
   logic [POOLED_WIDTH-1:0] sum;
   logic [WEIGHT_WIDTH-1:0] above_sky;
-  logic [OWN_WIDTH-1:0] own_q;  // the pixel's own margin, at most all ones
-  logic [CONFIDENCE_WIDTH-1:0] evidence;
+  logic [LEAST_WIDTH-1:0] least_q;  // without a significance: the pixel's own margin, at most 13
+  logic is_less;
 
   assign above = above_q & {CONFIDENCE_WIDTH{near_i[0]}};
   assign below = below_q & {CONFIDENCE_WIDTH{near_i[1]}};
@@ -108,14 +106,19 @@ module dtof_pool_confidence #(
       excess_q <= (pooled > POOLED_WIDTH'(mean)) ? pooled - POOLED_WIDTH'(mean) : '0;
       weight_q <= ((CONFIDENCE_WIDTH + 2)'({centre_q, 2'b00}) < (CONFIDENCE_WIDTH + 2)'(weight)) ? {centre_q[WEIGHT_WIDTH-3:0], 2'b00}
           : weight;
-      own_q <= (centre_q[CONFIDENCE_WIDTH-1:OWN_WIDTH] != '0) ? '1 : centre_q[OWN_WIDTH-1:0];
+      least_q <= (significance_q != '0) ? '0 : (centre_q > CONFIDENCE_WIDTH'(MOST_LEAST)) ? LEAST_WIDTH'(MOST_LEAST)
+          : centre_q[LEAST_WIDTH-1:0];
+      first_q <= first;
+      second_q <= second;
     end
   end
 
   assign sum = first_part + second_part;
   assign above_sky = (sum > POOLED_WIDTH'(MOST_ABOVE)) ? WEIGHT_WIDTH'(MOST_ABOVE) : sum[WEIGHT_WIDTH-1:0];
-  assign evidence = CONFIDENCE_WIDTH'(weight_q) + (CONFIDENCE_WIDTH'(above_sky) & {CONFIDENCE_WIDTH{!tilted_q}});
-  assign confidence_o = (evidence < CONFIDENCE_WIDTH'(own_q)) ? CONFIDENCE_WIDTH'(own_q) : evidence;
+  // Without a significance the weight is 0. The comparison does not wait for the last adder.
+  assign is_less = (tilted_q || sum < POOLED_WIDTH'(least_q));
+  assign confidence_o = (is_less && least_q != '0) ? CONFIDENCE_WIDTH'(least_q)
+      : CONFIDENCE_WIDTH'(weight_q) + (CONFIDENCE_WIDTH'(above_sky) & {CONFIDENCE_WIDTH{!tilted_q}});
 
 endmodule
 

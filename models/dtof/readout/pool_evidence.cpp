@@ -30,7 +30,7 @@ constexpr std::array<SkyMargin, 10> kSky = {{{18, 2, 3},
                                              {255, 5, 6}}};
 constexpr int kMostPooled = 127;
 constexpr int kPerOwnMargin = 4;
-constexpr int kMostOfOwnMargin = 15;  // what the pixel's own margin gives without other evidence
+constexpr int kMostOfOwnMargin = 13;  // what the pixel's own margin gives without other evidence
 
 constexpr std::uint32_t kShortFrame = 3333;
 constexpr int kMostOffset = 31;

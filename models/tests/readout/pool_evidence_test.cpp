@@ -101,13 +101,13 @@ TEST(KeptSignificance, KeepsTheUpperLevelsInTwoBits) {
 }
 
 TEST(PoolConfidence, GrowsWithSignificanceAndMargins) {
-  constexpr int kOfOwnMargin = 15;  // all that small evidence gives
+  constexpr int kLowestWeight = 13;  // and the most that a margin gives without a significance
   for (const int bits : {2, 3}) {
     for (int background = 0; background < 40; ++background) {
       int last = -1;
       for (int z = 0; z < 1 << bits; ++z) {
         const int confidence = pool_confidence(z, bits, {.own = 30, .others = 0}, background, false);
-        EXPECT_TRUE(confidence > last || confidence == kOfOwnMargin) << z;
+        EXPECT_TRUE(confidence > last || (z == 1 && confidence == kLowestWeight)) << z;
         last = confidence;
       }
       last = -1;
@@ -127,12 +127,11 @@ TEST(PoolConfidence, IsZeroWithoutEvidence) {
   EXPECT_EQ(pool_confidence(0, 3, {0, 18}, 0, false), 0);
 }
 
-TEST(PoolConfidence, IsAtLeastTheOwnMarginUpToFifteen) {
+TEST(PoolConfidence, IsAtLeastTheOwnMarginUpToThirteen) {
   for (const bool tilted : {false, true}) {
     EXPECT_EQ(pool_confidence(0, 3, {1, 0}, 39, tilted), 1);
-    EXPECT_EQ(pool_confidence(0, 3, {14, 0}, 39, tilted), 14);
-    EXPECT_EQ(pool_confidence(0, 3, {16, 0}, 39, tilted), 15);
-    EXPECT_EQ(pool_confidence(1, 3, {16, 0}, 39, tilted), 15);  // the significance alone gives 13
+    EXPECT_EQ(pool_confidence(0, 3, {12, 0}, 39, tilted), 12);
+    EXPECT_EQ(pool_confidence(0, 3, {14, 0}, 39, tilted), 13);
     EXPECT_EQ(pool_confidence(2, 3, {16, 0}, 39, tilted), 16);
   }
 }
