@@ -125,6 +125,11 @@ def clock_gate(library: Library) -> str:
         "endmodule", ""])
 
 
+def module_patterns() -> dict[str, tools.Setting]:
+    """What elaborate.tcl leaves out, and what it makes a piece of the top: patterns of names of modules."""
+    return {"array_modules": [f"*{name}" for name in ARRAYS], "path_modules": [f"*{name}*" for name in PATHS]}
+
+
 def children(elaborated: str) -> list[str]:
     """Modules that the top of an elaborated netlist (RTLIL) instantiates, by their names in the RTL, without array and clock gate."""
     start = re.search(r"^attribute \\top .*\n(?:attribute .*\n)*module .*\n", elaborated, re.MULTILINE)
@@ -150,8 +155,8 @@ def generic(configuration: Configuration, technology: Technology, folder: Path) 
     settings: dict[str, tools.Setting] = {
         "scripts": root / "synth" / "yosys", "top": TOP, "rtl_files": list(mapping.rtl_files(root)), "rtl_include": root / "hdl" / "common",
         "technology_files": [*technology_files, gate], "black_boxes": black_boxes, "liberty": technology.slow.path,
-        "parameters": dict(parameters(configuration, root)), "array_modules": [f"*{name}" for name in ARRAYS],
-        "path_modules": [f"*{name}*" for name in PATHS], "elaborated_netlist": elaborated, "generic_netlist": folder / "generic.il"}
+        "parameters": dict(parameters(configuration, root)), **module_patterns(),
+        "elaborated_netlist": elaborated, "generic_netlist": folder / "generic.il"}
     written = folder / "generic_settings.tcl"
     tools.write_settings(written, settings)
     tools.run_yosys(root / "synth" / "subsystem" / "elaborate.tcl", written, folder / "elaborate.log", configuration.name)
