@@ -11,7 +11,7 @@
 //                                             chunks
 // Latency: POOL_PARITY_CLOCKS from an access to parity_o and accessed_o.
 // Cost: two trees of XORs, each with one XOR for every bit of the word; a flip-flop for every 2 late bits and for every 16 other bits of
-// the written word, a flip-flop for every 29 bits of the read word, seven more flip-flops.
+// the written word, a flip-flop for every 24 bits of the read word, seven more flip-flops.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -32,7 +32,7 @@ module dtof_pool_word_parity #(
 );
 
   // Bits in front of a register: the fewer, the later they may come.
-  localparam int READ_CHUNK = 29;
+  localparam int READ_CHUNK = 24;
   localparam int CHUNK = 16;
   localparam int LATE_CHUNK = 2;
   localparam int EARLY_WIDTH = WORD_WIDTH - LATE_WIDTH;
