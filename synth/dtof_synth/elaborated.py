@@ -69,8 +69,9 @@ def elaborate(item: Configuration, root: Path, folder: Path, whole_subsystem: bo
         gate = folder / f"{subsystem.CLOCK_GATE}.sv"
         gate.write_text(subsystem.clock_gate(library.read(liberty)), encoding="utf-8")
         script = root / "synth" / "subsystem" / "elaborate.tcl"
-        settings |= {"top": subsystem.TOP, "technology_files": [*technology_files, gate], "parameters": dict(subsystem.parameters(item, root)),
-                     **subsystem.module_patterns()}
+        around: dict[str, tools.Setting] = {
+            "top": subsystem.TOP, "technology_files": [*technology_files, gate], "parameters": dict(subsystem.parameters(item, root))}
+        settings |= around | subsystem.module_patterns()
     tools.write_settings(folder / "settings.tcl", settings)
     tools.run_yosys(script, folder / "settings.tcl", folder / "elaborate.log", item.name)
     text = canonical(written.read_text(encoding="utf-8"), root)
