@@ -74,8 +74,7 @@ module pool_confidence_properties #(
     excess = (excess < 0) ? 0 : excess;
     part = excess / first + excess / second;
     expected = weight + (tilted[1] ? 0 : (part > 127) ? 127 : part);
-    own = (own > 13) ? 13 : own;
-    expected = (expected < own) ? own : expected;
+    expected = (own > 11 && expected < 12) ? 12 : expected;
   end
 
   `PROVE(a_confidence, t_q != 4'd6 || 32'(confidence) == expected)

@@ -128,11 +128,16 @@ def _kind_and_pin(design: dict, name: str) -> tuple[str, str]:
     return (netlist.modules(design)[kind] if kind else netlist.top(design))["cells"][cell]["type"], pin.split("[")[0]
 
 
-def check(name: str, design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> Load:
-    """The load that is closest to its limit. FlowError if one exceeds its limit. `design`: with all columns real."""
+def of_all(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> list[Load]:
+    """Loads of all drivers. `design`: with all columns real."""
     blocks = [kind for kind in (netlist.column_module(design), netlist.engine_module(design)) if kind]
     found = [load for kind in blocks for load in of_block(design, kind, library, pin_load)]
-    found += of_top(design, plan, library, pin_load)
+    return found + [*of_top(design, plan, library, pin_load)]
+
+
+def check(name: str, design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> Load:
+    """The load that is closest to its limit. FlowError if one exceeds its limit. `design`: with all columns real."""
+    found = of_all(design, plan, library, pin_load)
     too_much = [load for load in found if load.is_too_much]
     if too_much:
         raise FlowError(f"{name}: {len(too_much)} drivers have too much to drive: {'; '.join(map(str, too_much[:_MOST_NAMED]))}")

@@ -7,7 +7,7 @@ import json
 import math
 import re
 from collections.abc import Iterable
-from dataclasses import astuple, dataclass, field
+from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 
 from . import (endpoints, floorplan, loads, netlist, power, same_logic, spef, sram_kit, sram_model, stand_in,
@@ -308,10 +308,11 @@ class _Attempt:
     margin: Margin | None  # where the technology has a fast corner, too
     early: timing.Report | None = None  # of the fast corner
     spare: dict[str, float] = field(default_factory=dict)  # what the pins of paths that are too early there have in the slow one
+    overloaded: int = 0  # drivers whose load exceeds its limit
 
     @property
     def closes_with_margins(self) -> bool:
-        return self.rank >= 0
+        return self.rank >= 0 and not self.overloaded
 
     @property
     def rank(self) -> float:
@@ -349,11 +350,13 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
         raise FlowError(f"{configuration.name}: {error}") from None
     timed = _Netlist(design, plan, configuration, technology, folder / f"effort{number}", mapped)
     timed.prepare()
-    return _timed(timed, number, POOL_RESIZE_ROUNDS if configuration.is_pool else RESIZE_ROUNDS)
+    attempt = _timed(timed, number, POOL_RESIZE_ROUNDS if configuration.is_pool else RESIZE_ROUNDS)
+    all_loads = loads.of_all(timed.design, timed.plan, library, floorplan.pin_load(library, sram_kit.PIN_FF))
+    return replace(attempt, overloaded=sum(load.is_too_much for load in all_loads))
 
 
 def _attempts(configuration: Configuration, technology: Technology, folder: Path, most: int | None, naming: int) -> list[_Attempt]:
-    """Attempts with increasing effort until one closes."""
+    """Attempts with increasing effort until one closes and has no overloaded driver."""
     attempts: list[_Attempt] = []
     for number in range(len(efforts(configuration)[:most])):
         attempts.append(_attempt(configuration, technology, folder, number, naming))
@@ -363,10 +366,10 @@ def _attempts(configuration: Configuration, technology: Technology, folder: Path
 
 
 def _best(attempts: list[_Attempt]) -> _Attempt:
-    """The smallest attempt that closes, else the one that misses by least."""
+    """The smallest attempt that closes, else the one that misses by least, of those without an overloaded driver if there are such."""
     closing = [attempt for attempt in attempts if attempt.closes_with_margins]
     return min(closing, key=lambda attempt: attempt.netlist.cell_area()) if closing \
-        else max(attempts, key=lambda attempt: attempt.rank)
+        else max(attempts, key=lambda attempt: (not attempt.overloaded, attempt.rank))
 
 
 def run(configuration: Configuration, technology: Technology, folder: Path,

@@ -225,6 +225,14 @@ class Attempts(unittest.TestCase):
         self.assertAlmostEqual(run._Attempt(nothing, 0, 0.3, replace(MARGIN, slack=0.05)).rank, 0.05)
         self.assertAlmostEqual(run._Attempt(nothing, 0, 0.12, replace(MARGIN, slack=0.05)).rank, 0.02)
 
+    def test_an_attempt_with_an_overloaded_driver_does_not_close(self) -> None:
+        nothing = part_of(run._Netlist)
+        overloaded = run._Attempt(nothing, 0, 0.5, None, overloaded=1)
+        self.assertFalse(overloaded.closes_with_margins)
+        late = run._Attempt(nothing, 1, 0.05, None)
+        self.assertIs(run._best([overloaded, late]), late)
+        self.assertIs(run._best([overloaded]), overloaded)
+
     def test_a_slow_path_of_the_array_decides_about_a_library_without_a_fast_corner(self) -> None:
         timed = part_of(run._Netlist, technology=part_of(Technology, fast=None),
                         time=lambda *asked: SimpleNamespace(slack=0.25 if asked == ("slow", "nominal") else 9))

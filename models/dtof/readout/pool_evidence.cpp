@@ -30,7 +30,7 @@ constexpr std::array<SkyMargin, 10> kSky = {{{18, 2, 3},
                                              {255, 5, 6}}};
 constexpr int kMostPooled = 127;
 constexpr int kPerOwnMargin = 4;
-constexpr int kMostOfOwnMargin = 13;  // what the pixel's own margin gives without other evidence
+constexpr int kClearMargin = 12;  // own margin from which the confidence has a least value: itself
 
 constexpr std::uint32_t kShortFrame = 3333;
 constexpr int kMostOffset = 31;
@@ -78,7 +78,7 @@ int kept_significance(int significance, int bits) {
 int pool_confidence(int significance, int bits, const PooledMargin& margin, int background, bool tilted) {
   const auto z = static_cast<std::size_t>(significance);
   const int weight = std::min(bits == 3 ? kWeights[z] : kShortWeights[z], kPerOwnMargin * margin.own);
-  const int least = std::min(margin.own, kMostOfOwnMargin);
+  const int least = margin.own >= kClearMargin ? kClearMargin : 0;
   if (tilted) {
     return std::max(weight, least);
   }

@@ -40,9 +40,9 @@ struct PooledMargin {
   int own;     ///< |margin|
   int others;  ///< sum over the neighbours above, below and to the left whose position is near
 };
-/// Confidence of a winner: the evidence, and at least the pixel's own margin up to 13. `significance`:
-/// largest stored significance of the group's candidates within a coarse bin of the winner. `bits`: its
-/// width, above 0.
+/// Confidence of a winner: the evidence, and at least 12 if the pixel's own margin is at least 12.
+/// `significance`: largest stored significance of the group's candidates within a coarse bin of the winner.
+/// `bits`: its width, above 0.
 int pool_confidence(int significance, int bits, const PooledMargin& margin, int background, bool tilted);
 
 }  // namespace dtof

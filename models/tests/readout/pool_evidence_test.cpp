@@ -101,13 +101,14 @@ TEST(KeptSignificance, KeepsTheUpperLevelsInTwoBits) {
 }
 
 TEST(PoolConfidence, GrowsWithSignificanceAndMargins) {
-  constexpr int kLowestWeight = 13;  // and the most that a margin gives without a significance
+  constexpr int kLowestWeight = 13;
   for (const int bits : {2, 3}) {
     for (int background = 0; background < 40; ++background) {
       int last = -1;
       for (int z = 0; z < 1 << bits; ++z) {
         const int confidence = pool_confidence(z, bits, {.own = 30, .others = 0}, background, false);
-        EXPECT_TRUE(confidence > last || (z == 1 && confidence == kLowestWeight)) << z;
+        EXPECT_GT(confidence, last) << z;
+        EXPECT_TRUE(z == 0 || confidence >= kLowestWeight) << z;
         last = confidence;
       }
       last = -1;
@@ -127,11 +128,11 @@ TEST(PoolConfidence, IsZeroWithoutEvidence) {
   EXPECT_EQ(pool_confidence(0, 3, {0, 18}, 0, false), 0);
 }
 
-TEST(PoolConfidence, IsAtLeastTheOwnMarginUpToThirteen) {
+TEST(PoolConfidence, IsAtLeastTwelveWithAnOwnMarginOfTwelve) {
   for (const bool tilted : {false, true}) {
-    EXPECT_EQ(pool_confidence(0, 3, {1, 0}, 39, tilted), 1);
+    EXPECT_EQ(pool_confidence(0, 3, {11, 0}, 39, tilted), 0);
     EXPECT_EQ(pool_confidence(0, 3, {12, 0}, 39, tilted), 12);
-    EXPECT_EQ(pool_confidence(0, 3, {14, 0}, 39, tilted), 13);
+    EXPECT_EQ(pool_confidence(0, 3, {100, 0}, 39, tilted), 12);
     EXPECT_EQ(pool_confidence(2, 3, {16, 0}, 39, tilted), 16);
   }
 }

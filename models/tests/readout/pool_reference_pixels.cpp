@@ -327,7 +327,7 @@ int PoolReference::confidence(Place place) {
   const std::vector<int> weights =
       open_.prior ? std::vector{0, 22, 32, 64} : std::vector{0, 13, 16, 20, 24, 29, 35, 64};
   const int weight = std::min(weights[static_cast<std::size_t>(pixel.significance)], 4 * own);
-  const int alone = own > 13 ? 13 : own;
+  const int alone = own < 12 ? 0 : 12;
   if (g.tilted) {
     return weight > alone ? weight : alone;
   }
