@@ -3,7 +3,7 @@
 //
 // 1. With PARITY = 1 a word is stored with the XOR of its bits. A word that is read with an odd number of wrong bits raises error_o;
 //    read_data_o has the wrong word. An even number of wrong bits has no effect on error_o. With PARITIES > 1 the word has as many parts of
-//    equal width, and each part has a parity bit. The trees of XORs are then shorter, for data that come late in the clock of a write.
+//    one width, except the last ones, which may be narrower, and each part has a parity bit. The trees of XORs are then shorter, for data that come late in the clock of a write.
 // 2. With PARITY = 0 this module is a dtof_sram and nothing else.
 // 3. A word whose data nothing uses is not checked: a word that is written in the clock of its read, and a word for which ignore_i is
 //    high in the clock of the data. A word that was never written has no parity yet, so its reader raises ignore_i.

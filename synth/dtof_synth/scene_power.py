@@ -147,15 +147,24 @@ def count_activity(design: dict, case: simulation.Case, technology: Technology, 
     pipe = folder / "activity.vcd"
     pipe.unlink(missing_ok=True)
     os.mkfifo(pipe)
+    # The pipe has a writer until vvp ends, so that a vvp that never opens the pipe blocks nothing.
+    read_end = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    write_end = os.open(pipe, os.O_WRONLY)
+    os.set_blocking(read_end, True)
     said: list[str] = []
     process = subprocess.Popen(["vvp", "-n", "bench.vvp"], cwd=folder, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, text=True)
     output = given(process.stdout, "vvp has no output")
-    reader = threading.Thread(target=lambda: said.append(output.read()))
+
+    def read_output() -> None:
+        said.append(output.read())
+        os.close(write_end)
+
+    reader = threading.Thread(target=read_output)
     reader.start()
     counted: Activity | None = None
     try:
-        with pipe.open(encoding="ascii") as lines:
+        with open(read_end, encoding="ascii") as lines:
             counted = activity.count(lines, design, netlist_path, _streams)
     finally:
         if process.poll() is None and not counted:
@@ -164,6 +173,8 @@ def count_activity(design: dict, case: simulation.Case, technology: Technology, 
         output.close()
         process.wait()
         pipe.unlink(missing_ok=True)
+        if process.returncode > 0:  # the waveform is incomplete, and vvp has said why
+            simulation.outcome(said[0], case, 0.0)
     simulation.outcome(said[0], case, 0.0)
     return counted
 

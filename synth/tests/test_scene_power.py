@@ -241,6 +241,15 @@ class Steps(unittest.TestCase):
         self.assertEqual(counted.scopes["p0"].transitions[OTHER][5], 3)
         self.assertFalse((self.folder / "activity.vcd").exists())
 
+    def test_a_simulation_that_ends_before_its_waveform_begins_is_an_error(self) -> None:
+        design = {"modules": {"array": module({"clk_i": ("input", 2)}, {}, top=True)}}
+        case = scene_power.simulation.Case(scene_power.small(NAMED["ezpointer"]), (64,), 3)
+        with mock.patch.object(scene_power.simulation, "write_simulation_netlist", return_value=()), \
+                mock.patch.object(scene_power.simulation, "write_vectors"), mock.patch.object(scene_power.simulation, "compile_bench"), \
+                self.assertRaisesRegex(FlowError, "bench.vvp"):
+            scene_power.count_activity(design, case, self.technology, self.folder, 2.5)
+        self.assertFalse((self.folder / "activity.vcd").exists())
+
     def found(self) -> list[scene_power.ScenePower]:
         streaming = scene_power.Parts(70.0, 5.0, 1.0, 60.0, 40.0, 10.0, 50.0)
         other = scene_power.Parts(7.0, 0.5, 0.1, 6.0, 4.0, 1.0, 5.0)
