@@ -72,6 +72,7 @@ pool/dtof_pool_word_parity.sv
 pool/dtof_pool_quad.sv
 pool/dtof_pool_parity_store.sv
 pool/dtof_pool_parity.sv
+thesis/dtof_array_control.sv
 thesis/dtof_array.sv
 pool/dtof_pool_control.sv
 pool/dtof_pool_pointer_array.sv

@@ -212,6 +212,13 @@ package dtof_pkg;
     raw_bins = 1 << (is_word_moved(readout) ? bin_width(readout, np, nb) : scan_width(readout, np, nb));
   endfunction
 
+  // Bits of command_t (dtof_column_commands.svh).
+  function automatic int command_width(input int readout, input int np, input int nb, input int pixels, input int pointer_step,
+                                       input int fraction_bits);
+    command_width = 2 * np + index_width(coarse_passes(readout, np, nb) + 1) + 5 * index_width(pixels) + 2 * bin_width(readout, np, nb)
+        + step_width(pointer_step, fraction_width(readout, fraction_bits)) + scan_address_width(readout, np, nb, fraction_bits) + 21;
+  endfunction
+
   // Bits of the confidence in a result of a pointer read-out; the field has a count in a raw histogram.
   function automatic int kept_confidence_width(input int pointer_confidence_width, input int count_width,
                                                input int raw_histogram);

@@ -28,7 +28,7 @@ TEST(CircuitPart, FollowsTheInstancesOfTheName) {
   EXPECT_EQ(part("$flatten\\u_result_output.$abc$1"), CircuitPart::kOutput);
   EXPECT_EQ(part("$flatten\\u_result_path.\\u_result_output.$abc$1"), CircuitPart::kOutput);
   EXPECT_EQ(part("$flatten\\g_column[3].x.u_column.\\u_result_register.$abc$1"), CircuitPart::kOutput);
-  EXPECT_EQ(part("$flatten\\u_pass_sequencer.$abc$1"), CircuitPart::kControl);
+  EXPECT_EQ(part("$flatten\\u_control.\\u_pass_sequencer.$abc$1"), CircuitPart::kControl);
   EXPECT_EQ(part("$abc$5251$auto$blifparse.cc:386:parse_blif$5253"), CircuitPart::kControl);
 }
 

@@ -247,11 +247,12 @@ TEST(VerilatedHooks, AssertionsOfTheRtlAreAlive) {
     }
   };
   // When, where and what, as Verilator would print it.
-  EXPECT_THAT(run_until_the_gap,
-              ThrowsMessage<RtlError>(AllOf(
-                  HasSubstr("[0] %Error: dtof_pixel_sequencer.sv:"),
-                  HasSubstr("Assertion failed in array.dtof_array_testbench.u_array.u_pixel_sequencer."),
-                  HasSubstr("tdc_valid_i fell inside an acquisition"))));
+  EXPECT_THAT(
+      run_until_the_gap,
+      ThrowsMessage<RtlError>(AllOf(
+          HasSubstr("[0] %Error: dtof_pixel_sequencer.sv:"),
+          HasSubstr("Assertion failed in array.dtof_array_testbench.u_array.u_control.u_pixel_sequencer."),
+          HasSubstr("tdc_valid_i fell inside an acquisition"))));
 }
 
 TEST(TimeGate, IsRefusedWhereThereIsNoneOrOutOfRange) {
