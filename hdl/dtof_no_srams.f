@@ -60,6 +60,7 @@ thesis/dtof_interframe_histogram_column.sv
 thesis/dtof_partitioned_histogram_column.sv
 thesis/dtof_coarse_histogram_column.sv
 pool/dtof_pool_column.sv
+pool/dtof_pool_bins.sv
 pool/dtof_pool_pair.sv
 pool/dtof_pool_word_parity.sv
 pool/dtof_pool_quad.sv
