@@ -58,6 +58,11 @@ pool/dtof_pool_confidence.sv
 pool/dtof_pool_light.sv
 pool/dtof_pool_candidate_decoder.sv
 pool/dtof_pool_line.sv
+pool/dtof_pool_choose_chain.sv
+pool/dtof_pool_decide_chain.sv
+pool/dtof_pool_starts.sv
+pool/dtof_pool_engine_word.sv
+pool/dtof_pool_label_evidence.sv
 pool/dtof_pool_engine.sv
 // Columns of dtof_array: written by scripts/generate.py
 thesis/dtof_ez_pointer_column.sv
@@ -67,6 +72,7 @@ thesis/dtof_partitioned_histogram_column.sv
 thesis/dtof_coarse_histogram_column.sv
 // end of columns
 pool/dtof_pool_column.sv
+pool/dtof_pool_bins.sv
 pool/dtof_pool_pair.sv
 pool/dtof_pool_word_parity.sv
 pool/dtof_pool_quad.sv

@@ -53,6 +53,11 @@ pool/dtof_pool_confidence.sv
 pool/dtof_pool_light.sv
 pool/dtof_pool_candidate_decoder.sv
 pool/dtof_pool_line.sv
+pool/dtof_pool_choose_chain.sv
+pool/dtof_pool_decide_chain.sv
+pool/dtof_pool_starts.sv
+pool/dtof_pool_engine_word.sv
+pool/dtof_pool_label_evidence.sv
 pool/dtof_pool_engine.sv
 thesis/dtof_ez_pointer_column.sv
 thesis/dtof_his_pointer_column.sv
@@ -60,6 +65,7 @@ thesis/dtof_interframe_histogram_column.sv
 thesis/dtof_partitioned_histogram_column.sv
 thesis/dtof_coarse_histogram_column.sv
 pool/dtof_pool_column.sv
+pool/dtof_pool_bins.sv
 pool/dtof_pool_pair.sv
 pool/dtof_pool_word_parity.sv
 pool/dtof_pool_quad.sv

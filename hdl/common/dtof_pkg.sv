@@ -120,6 +120,8 @@ package dtof_pkg;
   // Bits of pool_engine_command_t (dtof_pool_pkg), as a number because Yosys 0.23 has no $bits of a type, and Icarus 11 none of a
   // variable of such a type. Every lint reports a wrong number.
   localparam int POOL_COMMAND_WIDTH = 65;
+  localparam int POOL_CHOOSE_PENALTY_WIDTH = 4;  // 2 + (5 * 39 >> 4) at most
+  localparam int POOL_DECIDE_PENALTY_WIDTH = 2;
   localparam int POOL_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score minus LABEL_COST, LEFT_COST and RIGHT_LIMIT
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.

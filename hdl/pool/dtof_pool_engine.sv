@@ -10,15 +10,16 @@
 //    the decoder's group word.
 // 2. Choose and decide take a pixel's word from the line and, one clock later, its group's word: the pixel is prepared. In choose
 //    dtof_beside_evidence adds the evidence of the neighbouring columns before the pixel enters the chain.
-// 3. The operation's chain (dtof_label_chain) handles one pixel per step. Messages of the first pass are kept in the scratch memory.
-// 4. From the best two labels choose makes the pixel's first pointer word; two such words are written together. dtof_smoothing moves the
+// 3. The operation's chain (dtof_pool_choose_chain, dtof_pool_decide_chain) handles one pixel per step. Messages of the first pass are kept
+//    in the scratch memory.
+// 4. From the best two labels choose makes the pixel's first pointer word (dtof_pool_starts, dtof_pool_engine_word). dtof_smoothing moves the
 //    starts of the pointers (with RIVAL_MOVES = 0: not) and decide's winners, and makes decide's result.
-// 5. With PRIOR = 1 choose also collects which candidates of a group are used, for decode of the next frame.
 //
 // An engine has no counters of rows, columns or clocks: in each clock it executes the command, and nothing else.
 //
 // Schedule: the table of dtof_pool_sequencer. Latency: POOL_ENGINE_*_CLOCKS (dtof_pkg).
-// Cost: dtof_pool_candidate_decoder, dtof_beside_evidence, two dtof_label_chain, a single-port SRAM with a word per row, per engine.
+// Cost: dtof_pool_candidate_decoder, dtof_beside_evidence, two dtof_label_chain, dtof_pool_starts, dtof_smoothing, dtof_pool_engine_word, a
+// single-port SRAM with a word per row, per engine.
 
 `include "dtof_macros.svh"
 
@@ -82,20 +83,15 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH;
   localparam int KEPT_WIDTH = dtof_pkg::pool_background_width(LABELS, PIXEL_WIDTH);  // highest bits of B that a group's word stores
   localparam int SCORES_WIDTH = LABELS * SCORE_BITS;
-  localparam int LEAD_WIDTH = LABEL_WIDTH + OFFSET_BITS;  // {offset, leader}
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
   localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
   localparam int SMOOTH_BRIGHT_FROM = 6;
   localparam int HALF_BINS_WIDTH = dtof_pkg::POOL_BINS_PER_LINE / LINE_HALVES * COUNT_WIDTH;
   localparam int BINS_WIDTH = dtof_pkg::POOL_BINS_PER_LINE * COUNT_WIDTH;
-  localparam int CHOOSE_PENALTY_WIDTH = 4;  // 2 + (5 * 39 >> 4) at most
-  localparam int DECIDE_PENALTY_WIDTH = 2;
   localparam int CHOOSE_EVIDENCE_WIDTH = dtof_pkg::POOL_EVIDENCE_WIDTH;
   localparam int DECIDE_EVIDENCE_WIDTH = ADVANTAGE_WIDTH + 1;
-  localparam int CELL_POSITION_WIDTH = CELL_WIDTH + 1;
-  localparam int POSITION_WIDTH = 17;
-  localparam int CHOOSE_MESSAGE_WIDTH = LABELS * CHOOSE_PENALTY_WIDTH;
-  localparam int DECIDE_MESSAGE_WIDTH = 2 * DECIDE_PENALTY_WIDTH;
+  localparam int CHOOSE_MESSAGE_WIDTH = LABELS * dtof_pkg::POOL_CHOOSE_PENALTY_WIDTH;
+  localparam int DECIDE_MESSAGE_WIDTH = 2 * dtof_pkg::POOL_DECIDE_PENALTY_WIDTH;
   localparam int LEFT_WIDTH = CELL_WIDTH + OFFSET_BITS;  // choose: cell and offset of a column's best label
   // Decide: {margin, position} of the winner; without significances the position alone.
   localparam int WINNER_WIDTH = 16 + ((SIGNIFICANCE_WIDTH != 0) ? CONFIDENCE_WIDTH : 0);
@@ -105,20 +101,12 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   `DTOF_TYPE(dtof_pool_pkg, beside_command_t) beside;
   assign beside = command_i.beside;
 
-  // Outside an operation registers hold. word_o becomes 0 in the clock after an operation.
+  // Outside an operation registers hold.
 
-  logic active, was_active_q;
+  logic active;
   logic [LINE_WIDTH-1:0] line_q;
 
   assign active = command_i.decoding || command_i.choosing || command_i.deciding;
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      was_active_q <= 1'b1;
-    end else begin
-      was_active_q <= active;
-    end
-  end
 
   always_ff @(posedge clk_i) begin
     if (active) begin
@@ -179,7 +167,6 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   logic [LABELS*CHOOSE_EVIDENCE_WIDTH-1:0] choose_evidence;
   logic [LABELS*CELL_WIDTH-1:0] cells;
   logic [BACKGROUND_WIDTH-1:0] line_background, background;
-  logic [LEAD_WIDTH-1:0] prepared_lead, next_lead_q, lead_q, last_lead_q;
   logic prepared_bright_q, next_bright_q, bright_q, last_bright_q;
   logic [SCRATCH_WIDTH-1:0] scratch;
   logic [CELL_WIDTH-1:0] left_cell;
@@ -190,14 +177,6 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       | BACKGROUND_WIDTH'((1 << (BACKGROUND_WIDTH - KEPT_WIDTH)) >> 1);
   assign line_pixel = command_i.odd_pixel ? line_q[PIXEL_WIDTH+:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
 
-  generate
-    if (OFFSET_BITS != 0) begin : g_lead
-      assign prepared_lead = prepared_q[SCORES_WIDTH+:LEAD_WIDTH];
-    end else begin : g_no_lead
-      assign prepared_lead = '0;
-    end
-  endgenerate
-
   always_ff @(posedge clk_i) begin
     if (command_i.take_pixel) begin
       captured_q <= line_pixel;
@@ -205,9 +184,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     if (advance) begin
       prepared_q <= captured_q;
       prepared_bright_q <= (line_background >= BACKGROUND_WIDTH'(SMOOTH_BRIGHT_FROM));
-      {next_lead_q, next_bright_q} <= {prepared_lead, prepared_bright_q};
-      {lead_q, bright_q} <= {next_lead_q, next_bright_q};
-      {last_lead_q, last_bright_q} <= {lead_q, bright_q};
+      {last_bright_q, bright_q, next_bright_q} <= {bright_q, next_bright_q, prepared_bright_q};
     end
   end
 
@@ -230,30 +207,19 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   // Chains, and their scratch memory: {messages, best label of the left column}. The second pass writes the column's own best label.
 
-  logic [LABELS*CELL_POSITION_WIDTH-1:0] choose_position;
-  logic [BACKGROUND_WIDTH+2:0] five_backgrounds;
-  logic [CHOOSE_PENALTY_WIDTH-1:0] choose_penalty;
   logic [CHOOSE_MESSAGE_WIDTH-1:0] choose_message;
   logic [DECIDE_MESSAGE_WIDTH-1:0] decide_message;
   logic [SCRATCH_WIDTH-1:0] choose_scratch, decide_scratch;
   logic [LABEL_WIDTH-1:0] best_label, second_label;
-  logic [CELL_POSITION_WIDTH-1:0] best_cell, second_cell;
+  logic [CELL_WIDTH-1:0] best_cell, second_cell;
   logic [CHOOSE_EVIDENCE_WIDTH+1:0] choose_margin;
   logic [LEFT_WIDTH-1:0] best_lead;
-  logic [POSITION_WIDTH-1:0] position;  // winner of decide
+  logic decided_rival;
+  logic [15:0] position, lost_position;  // winner of decide, and the other label
   logic [WINNER_WIDTH-1:0] winner;
   logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
   logic [LEFT_WIDTH-1:0] written_left;
 
-  genvar k;
-  generate
-    for (k = 0; k < LABELS; k = k + 1) begin : g_label
-      assign choose_position[k*CELL_POSITION_WIDTH+:CELL_POSITION_WIDTH] = {1'b0, cells[k*CELL_WIDTH+:CELL_WIDTH]};
-    end
-  endgenerate
-
-  assign five_backgrounds = (BACKGROUND_WIDTH + 3)'(background) + ((BACKGROUND_WIDTH + 3)'(background) << 2);
-  assign choose_penalty = CHOOSE_PENALTY_WIDTH'(five_backgrounds >> 4) + CHOOSE_PENALTY_WIDTH'(2);
   assign left_cell = scratch[CELL_WIDTH-1:0];
   generate
     if (PARITY != 0) begin : g_written_left
@@ -266,9 +232,9 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign choose_scratch = SCRATCH_WIDTH'({choose_message, command_i.back ? best_lead : written_left});
   generate
     if (SIGNIFICANCE_WIDTH != 0) begin : g_winner_margin
-      assign winner = {decide_margin[CONFIDENCE_WIDTH-1:0], position[15:0]};
+      assign winner = {decide_margin[CONFIDENCE_WIDTH-1:0], position};
     end else begin : g_winner
-      assign winner = position[15:0];
+      assign winner = position;
     end
   endgenerate
   assign decide_scratch = SCRATCH_WIDTH'({decide_message, command_i.back ? winner : scratch[WINNER_WIDTH-1:0]});
@@ -311,182 +277,99 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .write_data_i(command_i.deciding ? decide_scratch : choose_scratch)
   );
 
-  dtof_label_chain #(
-      .LABELS        (LABELS),
-      .POSITION_WIDTH(CELL_POSITION_WIDTH),
-      .REACH         (4),
-      .EVIDENCE_WIDTH(CHOOSE_EVIDENCE_WIDTH),
-      .PENALTY_WIDTH (CHOOSE_PENALTY_WIDTH)
-  ) u_choose (
-      .clk_i            (clk_i),
-      .active_i         (command_i.choosing),
-      .command_i        (command_i.choose),
-      .evidence_i       (choose_evidence),
-      .position_i       (choose_position),
-      .penalty_i        (choose_penalty),
-      .message_o        (choose_message),
-      .other_message_i  (scratch[LEFT_WIDTH+:CHOOSE_MESSAGE_WIDTH]),
-      .best_label_o     (best_label),
-      .second_label_o   (second_label),
-      .best_position_o  (best_cell),
-      .second_position_o(second_cell),
-      .margin_o         (choose_margin)
+  dtof_pool_choose_chain #(
+      .LABELS(LABELS)
+  ) u_choose_chain (
+      .clk_i          (clk_i),
+      .active_i       (command_i.choosing),
+      .command_i      (command_i.choose),
+      .evidence_i     (choose_evidence),
+      .cells_i        (cells),
+      .background_i   (background),
+      .message_o      (choose_message),
+      .other_message_i(scratch[LEFT_WIDTH+:CHOOSE_MESSAGE_WIDTH]),
+      .best_label_o   (best_label),
+      .second_label_o (second_label),
+      .best_cell_o    (best_cell),
+      .second_cell_o  (second_cell),
+      .margin_o       (choose_margin)
   );
 
-  logic decided_rival, unused_loser;
-  logic [POSITION_WIDTH-1:0] leader_position, rival_position, lost_position;
-
-  generate
-    if (RIVAL_MOVES != 0) begin : g_absolute
-      assign leader_position = POSITION_WIDTH'(prepared_q[POINTER_WIDTH-1:0]) << POINTER_SHIFT;
-      assign rival_position = POSITION_WIDTH'({prepared_q[POINTER_WIDTH+:RIVAL_WIDTH], 9'h100});
-    end else begin : g_relative
-      // Leader and rival are candidates of the group, whose word is on the line while the pixel is prepared.
-      logic [LABEL_WIDTH-1:0] leader_label, rival_label;
-      logic [CELL_WIDTH-1:0] leader_cell_q, rival_cell_q;
-      logic signed [17:0] moved;
-      assign leader_label = captured_q[POINTER_WIDTH+:LABEL_WIDTH];
-      assign rival_label = captured_q[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH];
-      always_ff @(posedge clk_i) begin
-        if (advance) begin
-          leader_cell_q <= line_q[leader_label*CELL_WIDTH+:CELL_WIDTH];
-          rival_cell_q <= line_q[rival_label*CELL_WIDTH+:CELL_WIDTH];
-        end
-      end
-      assign moved = $signed({2'b00, leader_cell_q, 9'd0})
-          + $signed({{(18 - POINTER_WIDTH - POINTER_SHIFT) {prepared_q[POINTER_WIDTH-1]}}, prepared_q[POINTER_WIDTH-1:0],
-                     {POINTER_SHIFT{1'b0}}});
-      // A position beyond the range becomes the end of the range.
-      assign leader_position = moved[17] ? '0 : moved[16] ? POSITION_WIDTH'(17'h0ffff) : POSITION_WIDTH'(moved[15:0]);
-      assign rival_position = POSITION_WIDTH'({rival_cell_q, 9'd0});
-    end
-  endgenerate
-
-  dtof_label_chain #(
-      .LABELS        (2),
-      .POSITION_WIDTH(POSITION_WIDTH),
-      .REACH         (2048),
-      .EVIDENCE_WIDTH(DECIDE_EVIDENCE_WIDTH),
-      .PENALTY_WIDTH (DECIDE_PENALTY_WIDTH)
-  ) u_decide (
-      .clk_i            (clk_i),
-      .active_i         (command_i.deciding),
-      .command_i        (command_i.decide),
-      .evidence_i       ({{DECIDE_EVIDENCE_WIDTH{1'b0}}, 1'b0, prepared_q[POINT_WIDTH-1-:ADVANTAGE_WIDTH]}),
-      .position_i       ({rival_position, leader_position}),
-      .penalty_i        (DECIDE_PENALTY_WIDTH'(2)),
-      .message_o        (decide_message),
-      .other_message_i  (scratch[WINNER_WIDTH+:DECIDE_MESSAGE_WIDTH]),
-      .best_label_o     (decided_rival),
-      .second_label_o   (unused_loser),
-      .best_position_o  (position),
-      .second_position_o(lost_position),
-      .margin_o         (decide_margin)
+  dtof_pool_decide_chain #(
+      .LABELS         (LABELS),
+      .SCORE_BITS     (SCORE_BITS),
+      .OFFSET_BITS    (OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES)
+  ) u_decide_chain (
+      .clk_i          (clk_i),
+      .active_i       (command_i.deciding),
+      .command_i      (command_i.decide),
+      .advance_i      (advance),
+      .captured_i     (captured_q),
+      .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
+      .prepared_i     (prepared_q),
+      .message_o      (decide_message),
+      .other_message_i(scratch[WINNER_WIDTH+:DECIDE_MESSAGE_WIDTH]),
+      .rival_wins_o   (decided_rival),
+      .position_o     (position),
+      .lost_position_o(lost_position),
+      .margin_o       (decide_margin)
   );
 
-  // Choose: first pointer word. The leader's offset has moved through the steps with its pixel.
+  // Choose: starts of pointers, and the word that the engine gives to a pair.
 
   logic [15:0] best_start, second_start, left_lead, left_start, start;
   logic [CONFIDENCE_WIDTH-1:0] start_margin;
-  logic [PIXEL_WIDTH-1:0] first_word;
   logic [ADVANTAGE_WIDTH-1:0] start_advantage;
-  logic [2*PIXEL_WIDTH-1:0] new_pair_q;
 
-  generate
-    if (OFFSET_BITS != 0) begin : g_offset
-      function automatic logic [15:0] start_of(input logic [LEFT_WIDTH-1:0] lead);
-        start_of = {lead[CELL_WIDTH-1:0], 9'd0}
-            + {{(10 - OFFSET_BITS) {lead[LEFT_WIDTH-1]}}, lead[CELL_WIDTH+:OFFSET_BITS], 6'd0};
-      endfunction
-      logic [LABEL_WIDTH-1:0] leader;
-      logic [OFFSET_BITS-1:0] offset;
-      assign {offset, leader} = last_lead_q;
-      assign best_lead = {offset & {OFFSET_BITS{leader == best_label}}, best_cell[CELL_WIDTH-1:0]};
-      assign best_start = start_of(best_lead);
-      assign second_start = start_of({offset & {OFFSET_BITS{leader == second_label}}, second_cell[CELL_WIDTH-1:0]});
-      assign left_start = start_of(left_lead[LEFT_WIDTH-1:0]);
-    end else begin : g_no_offset
-      assign best_lead = best_cell[CELL_WIDTH-1:0];
-      assign best_start = {best_cell[CELL_WIDTH-1:0], 9'd0};
-      assign second_start = {second_cell[CELL_WIDTH-1:0], 9'd0};
-      assign left_start = {left_lead[CELL_WIDTH-1:0], 9'd0};
-    end
-  endgenerate
+  dtof_pool_starts #(
+      .LABELS         (LABELS),
+      .SCORE_BITS     (SCORE_BITS),
+      .OFFSET_BITS    (OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH)
+  ) u_starts (
+      .clk_i         (clk_i),
+      .advance_i     (advance),
+      .word_i        (prepared_q[TRACK_WIDTH-1:0]),
+      .best_label_i  (best_label),
+      .second_label_i(second_label),
+      .best_cell_i   (best_cell),
+      .second_cell_i (second_cell),
+      .left_i        (left_lead[LEFT_WIDTH-1:0]),
+      .margin_i      (choose_margin),
+      .best_o        (best_lead),
+      .best_start_o  (best_start),
+      .second_start_o(second_start),
+      .left_start_o  (left_start),
+      .advantage_o   (start_advantage)
+  );
 
-  localparam int HALF_ADVANTAGE = 1 << (ADVANTAGE_WIDTH - 1);
-  assign start_advantage = (32'(choose_margin) >= HALF_ADVANTAGE) ? ADVANTAGE_WIDTH'(HALF_ADVANTAGE - 1)
-      : ADVANTAGE_WIDTH'(choose_margin);
-  generate
-    if (RIVAL_MOVES != 0) begin : g_absolute_word
-      // The rival is delayed until the leader's start has been moved closer to its neighbours' starts.
-      logic [RIVAL_WIDTH-1:0] rival_q, next_rival_q;
-      always_ff @(posedge clk_i) begin
-        if (command_i.choosing && command_i.take_position) begin
-          next_rival_q <= second_start[15:9];
-          rival_q <= next_rival_q;
-        end
-      end
-      assign first_word = PIXEL_WIDTH'({start_margin[ADVANTAGE_WIDTH-1:0], rival_q, start[15:POINTER_SHIFT]});
-    end else begin : g_relative_word
-      assign first_word = PIXEL_WIDTH'({start_advantage, second_label, best_label, {POINTER_WIDTH{1'b0}}});
-    end
-  endgenerate
-
-  always_ff @(posedge clk_i) begin
-    if (command_i.take_word && command_i.odd_word) begin
-      new_pair_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] <= first_word;
-    end else if (command_i.take_word) begin
-      new_pair_q[PIXEL_WIDTH-1:0] <= first_word;
-    end
-  end
-
-  // Candidates of a group that some pixel uses: those that the pair's left column has used, and those of this column. The next group's
-  // first pixel arrives before they are written, so so_far_q begins anew while used_q still holds the group before.
-
-  logic [HALF_WIDTH-1:0] done_word;
-
-  generate
-    if (PRIOR != 0) begin : g_used
-      logic [LABELS-1:0] left_used_q, so_far_q, used_q;
-      always_ff @(posedge clk_i) begin
-        if (command_i.take_used) begin
-          left_used_q <= line_q[GROUP_WIDTH+:LABELS];
-        end
-        if (command_i.take_choice) begin
-          so_far_q <= (command_i.next_group ? left_used_q : so_far_q) | (LABELS'(1) << best_label);
-        end
-        if (command_i.next_group) begin
-          used_q <= so_far_q;
-        end
-      end
-      assign done_word = command_i.giving_used ? HALF_WIDTH'(used_q) << GROUP_WIDTH : HALF_WIDTH'(new_pair_q);
-    end else begin : g_not_used
-      assign done_word = HALF_WIDTH'(new_pair_q);
-      logic unused_commands;
-      assign unused_commands = ^{command_i.take_used, command_i.take_choice, command_i.next_group, command_i.giving_used};
-    end
-  endgenerate
-
-  logic [HALF_WIDTH-1:0] new_evidence;  // significances and tilted flag of the group's candidates
-  generate
-    if (SIGNIFICANCE_WIDTH != 0) begin : g_new_evidence
-      assign new_evidence = HALF_WIDTH'({new_significances, new_tilted}) << EVIDENCE_FIRST;
-    end else begin : g_no_new_evidence
-      assign new_evidence = '0;
-      logic unused_new_evidence;
-      assign unused_new_evidence = ^{new_significances, new_tilted};
-    end
-  endgenerate
-
-  // Registered here because the wires to the pairs are long. A pair registers the word one clock before it writes it. The word is 0
-  // while the SRAMs are cleared.
-  always_ff @(posedge clk_i) begin
-    if (active || was_active_q) begin
-      word_o <= ((HALF_WIDTH'({new_background[BACKGROUND_WIDTH-1-:KEPT_WIDTH], new_cells}) | new_evidence)
-              & {HALF_WIDTH{command_i.decoding}})
-          | (done_word & {HALF_WIDTH{command_i.choosing}});
-    end
-  end
+  dtof_pool_engine_word #(
+      .LABELS         (LABELS),
+      .SCORE_BITS     (SCORE_BITS),
+      .OFFSET_BITS    (OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES),
+      .PRIOR          (PRIOR)
+  ) u_word (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_ni),
+      .command_i      (command_i),
+      .cells_i        (new_cells),
+      .background_i   (new_background[BACKGROUND_WIDTH-1-:KEPT_WIDTH]),
+      .significances_i(new_significances),
+      .tilted_i       (new_tilted),
+      .best_label_i   (best_label),
+      .second_label_i (second_label),
+      .second_cell_i  (second_start[15-:RIVAL_WIDTH]),
+      .start_i        (start),
+      .advantage_i    ((RIVAL_MOVES != 0) ? ADVANTAGE_WIDTH'(start_margin) : start_advantage),
+      .group_i        (line_q[HALF_WIDTH-1:0]),
+      .word_o         (word_o)
+  );
 
   // Choose and decide: positions move closer together. Decide: result.
 
@@ -506,11 +389,11 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .has_left_i      (beside.has_left),
       .take_position_i (command_i.take_position),
       .has_position_i  (command_i.has_position),
-      .position_i      (command_i.deciding ? position[15:0] : best_start),
+      .position_i      (command_i.deciding ? position : best_start),
       .left_i          (scratch[15:0]),
       .left_position_i (command_i.deciding ? left_lead : left_start),
       .left_o          (left_lead),
-      .lost_position_i (lost_position[15:0]),
+      .lost_position_i (lost_position),
       .margin_i        (command_i.deciding ? decide_margin[CONFIDENCE_WIDTH-1:0] : CONFIDENCE_WIDTH'(start_advantage)),
       .confidence_i    (confidence),
       .near_o          (near),
@@ -545,49 +428,33 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   endgenerate
 
-  // Decide: confidence. The significances near both labels and the group's background move through the steps with the pixel.
+  // Decide: confidence.
 
   generate
     if (SIGNIFICANCE_WIDTH != 0) begin : g_confidence
       logic next_pixel;  // a signal, because Icarus Verilog 12 connects the whole command to a port in a generate block
       assign next_pixel = command_i.decide.advance;
-      localparam int SKY_WIDTH = dtof_pkg::POOL_SKY_WIDTH;
-      localparam int FACTS_WIDTH = 2 * SIGNIFICANCE_WIDTH + 1 + SKY_WIDTH;  // {significance of the rival, of the leader, tilted, sky}
-      logic [SIGNIFICANCE_WIDTH-1:0] leader_significance, rival_significance;
-      logic [SKY_WIDTH:0] prepared_sky_q;  // {tilted, sky}
-      logic [FACTS_WIDTH-1:0] next_facts_q, facts_q, last_facts_q;
+      logic [SIGNIFICANCE_WIDTH-1:0] significance;
+      logic tilted;
+      logic [dtof_pkg::POOL_SKY_WIDTH-1:0] sky;
 
-      dtof_near_significance #(
+      dtof_pool_label_evidence #(
           .LABELS    (LABELS),
           .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
-      ) u_leader (
+      ) u_label_evidence (
           .clk_i          (clk_i),
-          .take_i         (next_pixel),
+          .advance_i      (next_pixel),
           .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
           .significances_i(line_q[EVIDENCE_FIRST+1+:LABELS*SIGNIFICANCE_WIDTH]),
-          .cell_i         (captured_q[POINTER_WIDTH-1-:CELL_WIDTH]),
-          .significance_o (leader_significance)
+          .tilted_i       (line_q[EVIDENCE_FIRST]),
+          .sky_i          (line_background[BACKGROUND_WIDTH-1-:dtof_pkg::POOL_SKY_WIDTH]),
+          .leader_cell_i  (captured_q[POINTER_WIDTH-1-:CELL_WIDTH]),
+          .rival_cell_i   (captured_q[POINTER_WIDTH+:CELL_WIDTH]),
+          .rival_wins_i   (decided_rival),
+          .significance_o (significance),
+          .tilted_o       (tilted),
+          .sky_o          (sky)
       );
-
-      dtof_near_significance #(
-          .LABELS    (LABELS),
-          .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
-      ) u_rival (
-          .clk_i          (clk_i),
-          .take_i         (next_pixel),
-          .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
-          .significances_i(line_q[EVIDENCE_FIRST+1+:LABELS*SIGNIFICANCE_WIDTH]),
-          .cell_i         (captured_q[POINTER_WIDTH+:CELL_WIDTH]),
-          .significance_o (rival_significance)
-      );
-
-      always_ff @(posedge clk_i) begin
-        if (next_pixel) begin
-          prepared_sky_q <= {line_q[EVIDENCE_FIRST], line_background[BACKGROUND_WIDTH-1-:SKY_WIDTH]};
-          {last_facts_q, facts_q, next_facts_q} <= {facts_q, next_facts_q, rival_significance, leader_significance,
-                                                    prepared_sky_q};
-        end
-      end
 
       dtof_pool_confidence #(
           .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
@@ -597,10 +464,9 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .take_position_i (command_i.deciding && command_i.take_position),
           .margin_i        (decide_margin[CONFIDENCE_WIDTH-1:0]),
           .left_margin_i   (scratch[16+:CONFIDENCE_WIDTH]),
-          .significance_i  (decided_rival ? last_facts_q[FACTS_WIDTH-1-:SIGNIFICANCE_WIDTH]
-                            : last_facts_q[SKY_WIDTH+1+:SIGNIFICANCE_WIDTH]),
-          .tilted_i        (last_facts_q[SKY_WIDTH]),
-          .sky_i           (last_facts_q[SKY_WIDTH-1:0]),
+          .significance_i  (significance),
+          .tilted_i        (tilted),
+          .sky_i           (sky),
           .take_distances_i(command_i.deciding && command_i.take_distances),
           .near_i          (near),
           .confidence_o    (confidence)
@@ -613,9 +479,8 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
   endgenerate
 
   logic unused;
-  assign unused = ^{decided_rival, unused_loser, lost_position, position, decide_margin, best_cell[CELL_WIDTH],
-                    second_cell[CELL_WIDTH], second_start, best_label, second_label, last_lead_q, line_q, scratch, best_start,
-                    left_lead, left_start, start, start_margin, prepared_q, new_background};
+  assign unused = ^{decided_rival, decide_margin, second_start, line_q, scratch, best_start, left_lead, left_start, start, start_margin,
+                    prepared_q, new_background};
 
 endmodule
 

@@ -3,19 +3,9 @@
 // part has two halves. They hold two pixels of each of the two columns; or two groups; or, in the coarse phase, bins of a
 // group, because both columns count in one histogram.
 //
-// All pairs access the same address in a clock. In the coarse phase a column chooses one timestamp of every two rows. Each part of
-// the group's bins adds the choices of both columns that fall into this part, up to two bins in a clock:
-//   clock (T0: last slot of the two rows)   T1            T2          T3                    T4
-//   first part                              read          registered  counted and written
-//   second part                                           read        registered            counted and written
-// The choice is available at T2, so the second part is read only if a choice falls into it, and in a sweep.
-// With LINE_HALVES = 2 there are four parts, for which the clocks of two rows do not suffice. Four rows count together:
-//   clock (T0: last slot of the four rows)  T2            T3          T4                    T5
-//   first part                              read          registered  first two rows count  last two rows count, written
-//   next part                                                         read                  registered
-// In a sweep nothing counts. In the group's first visit the pair checks each part in the clock in which it would count. In the second
-// visit, if a bin was full, the pair subtracts a quarter of the range from every bin. If a bin was below that quarter, the pair
-// instead sets the frozen bit of every part, and the group counts nothing until the next clear.
+// All pairs access the same address in a clock. In the coarse phase a column chooses one timestamp of every two rows, and dtof_pool_bins,
+// which has the schedule, adds the choices of both columns to the parts of the group's bins. Of the two parts the second is read only
+// if a choice falls into it, and in a sweep (upper_t2_o).
 //
 // In the other phases one dtof_pool_pixel_update computes the new words of a row's two pixels, one after the other:
 //   clock (T0: last slot of a row)   T2               T3                  T4
@@ -111,8 +101,6 @@ module dtof_pool_pair #(
 );
 
   localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS);
-  localparam int HALF_BINS = dtof_pkg::POOL_BINS_PER_LINE / LINE_HALVES;
-  localparam int PLACE_WIDTH = COARSE_WIDTH - PART_WIDTH;  // place of a bin in a word
   localparam int LAST = COLUMNS - 1;
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int CELLS_WIDTH = LABELS * CELL_WIDTH;
@@ -128,129 +116,31 @@ module dtof_pool_pair #(
   logic [COLUMNS-1:0] detected_t1, may_have_t1, detected_t2, held_valid, upper_t2;
   logic [COLUMNS*COARSE_WIDTH-1:0] held_bin;
 
-  // Coarse: the columns' choices, each {bin, valid}. Two choices count at a time, possibly in the same bin. In all other clocks no
-  // choice counts, so that counted_word equals the word.
+  // Coarse.
 
-  localparam int CHOICE_WIDTH = COARSE_WIDTH + 1;
-  logic [2*CHOICE_WIDTH-1:0] chosen;
-  logic count_q, counts_first, counts, counted_before;
-  logic [1:0] counts_here;
-  logic [2*PLACE_WIDTH-1:0] places;
-  logic [PART_WIDTH-1:0] part_q;
+  logic counts_first, counts, bins_write;
   logic [WORD_WIDTH-1:0] counted_word;
 
-  assign counts = (counts_here != '0);
-
-  always_ff @(posedge clk_i) begin
-    count_q <= load_i;
-    if (load_i) begin
-      part_q <= part_i;
-    end
-  end
-
-  // Sweep. In every part, the frozen bit is the first bit above the lower half's bins.
-
-  localparam int FROZEN_BIT = HALF_BINS * COUNT_WIDTH;
-  logic full_q, low_q;  // some bin of the group is full, or below a quarter of its range
-  logic first_part, rests, full_here, low_here, takes_quarter, freezes;
-
-  assign first_part = (part_q == '0);
-  assign rests = sweep_i || word_q[FROZEN_BIT];
-  assign takes_quarter = make_room_i && full_q && !low_q;
-  assign freezes = make_room_i && full_q && low_q;
-
-  always_ff @(posedge clk_i) begin
-    if (count_q && sweep_i && !make_room_i) begin
-      full_q <= (full_here && !word_q[FROZEN_BIT]) || (full_q && !first_part);
-      low_q <= low_here || (low_q && !first_part);
-    end
-  end
-
-  generate
-    if (COLUMNS == 2) begin : g_both_choose
-      assign chosen = {held_bin[COARSE_WIDTH+:COARSE_WIDTH], held_valid[1], held_bin[COARSE_WIDTH-1:0], held_valid[0]};
-    end else begin : g_one_chooses
-      assign chosen = {{CHOICE_WIDTH{1'b0}}, held_bin, held_valid};
-    end
-  endgenerate
-
-  genvar d;
-  generate
-    if (PART_WIDTH == 1) begin : g_two_parts
-      // The choices hold until both parts have counted.
-      for (d = 0; d < 2; d = d + 1) begin : g_choice
-        logic valid, part;
-        assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = chosen[d*CHOICE_WIDTH+:CHOICE_WIDTH];
-        assign counts_here[d] = count_q && valid && (part == part_q) && !rests;
-      end
-      assign counts_first = 1'b0;
-      assign counted_before = 1'b0;
-      logic unused_keep;
-      assign unused_keep = ^{keep_first_i, keep_last_i};
-    end else begin : g_four_parts
-      // The next four rows' first choices arrive before these choices have counted in all parts.
-      logic [2*CHOICE_WIDTH-1:0] waiting_q, first_q, last_q, counted;
-      logic count_last_q, counted_q;
-      assign counted = count_last_q ? last_q : first_q;
-      assign counts_first = count_q;
-      assign counted_before = counted_q;
-      always_ff @(posedge clk_i) begin
-        count_last_q <= count_q;
-        if (keep_first_i) begin
-          waiting_q <= chosen;
-        end
-        if (keep_last_i) begin
-          first_q <= waiting_q;
-          last_q <= chosen;
-        end
-        if (count_q) begin
-          counted_q <= counts;
-        end
-      end
-      for (d = 0; d < 2; d = d + 1) begin : g_choice
-        logic valid;
-        logic [PART_WIDTH-1:0] part;
-        assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = counted[d*CHOICE_WIDTH+:CHOICE_WIDTH];
-        assign counts_here[d] = (count_q || count_last_q) && valid && (part == part_q) && !rests;
-      end
-    end
-  endgenerate
-
-  logic [2*HALF_BINS-1:0] full_bins, low_bins;
-  assign full_here = (full_bins != '0);
-  assign low_here = (low_bins != '0);
-
-  genvar b, n;
-  generate
-    for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin : g_bin
-      localparam int FIRST = (b / HALF_BINS) * HALF_WIDTH + (b % HALF_BINS) * COUNT_WIDTH;
-      logic first_counts, second_counts, one, two, full_above, first_carry, carry;
-      logic [COUNT_WIDTH-1:0] bin, count;
-      assign bin = word_q[FIRST+:COUNT_WIDTH];
-      assign full_bins[b] = &bin;
-      assign low_bins[b] = (bin[COUNT_WIDTH-1-:2] == 2'd0);
-      assign first_counts = counts_here[0] && (places[PLACE_WIDTH-1:0] == PLACE_WIDTH'(b));
-      assign second_counts = counts_here[1] && (places[PLACE_WIDTH+:PLACE_WIDTH] == PLACE_WIDTH'(b));
-      assign one = first_counts ^ second_counts;
-      assign two = first_counts && second_counts;
-      // Adds one or two and saturates: the increment is suppressed where the bin has no room for it.
-      assign full_above = &bin[COUNT_WIDTH-1:1];
-      assign count = {bin[COUNT_WIDTH-1] && (bin[COUNT_WIDTH-2] || !takes_quarter), bin[COUNT_WIDTH-2] ^ takes_quarter,
-                      bin[COUNT_WIDTH-3:0]};
-      assign first_carry = one && !full_bins[b];
-      assign carry = (count[0] && first_carry) || (two && !full_above);
-      assign counted_word[FIRST+:2] = {count[1] ^ carry, (count[0] ^ first_carry) || (two && full_above)};
-      for (n = 2; n < COUNT_WIDTH; n = n + 1) begin : g_high
-        assign counted_word[FIRST+n] = count[n] ^ (carry && (&count[n-1:1]));
-      end
-    end
-    // Bits of a half above its bins.
-    for (b = 0; b < 2; b = b + 1) begin : g_rest
-      localparam int FIRST = b * HALF_WIDTH + HALF_BINS * COUNT_WIDTH;
-      localparam int WIDTH = HALF_WIDTH - HALF_BINS * COUNT_WIDTH;
-      assign counted_word[FIRST+:WIDTH] = word_q[FIRST+:WIDTH] | WIDTH'(freezes && b == 0);
-    end
-  endgenerate
+  dtof_pool_bins #(
+      .COLUMNS    (COLUMNS),
+      .COUNT_WIDTH(COUNT_WIDTH),
+      .HALF_WIDTH (HALF_WIDTH)
+  ) u_bins (
+      .clk_i       (clk_i),
+      .valid_i     (held_valid),
+      .bin_i       (held_bin),
+      .keep_first_i(keep_first_i),
+      .keep_last_i (keep_last_i),
+      .load_i      (load_i),
+      .part_i      (part_i),
+      .sweep_i     (sweep_i),
+      .make_room_i (make_room_i),
+      .word_i      (word_q),
+      .first_o     (counts_first),
+      .counts_o    (counts),
+      .write_o     (bins_write),
+      .word_o      (counted_word)
+  );
 
   // The word register and the candidates of its group. A word has four pixels: column c of row r is pixel 2 c + r.
 
@@ -512,8 +402,7 @@ module dtof_pool_pair #(
   assign upper_t2_o = (upper_t2 != '0);
 
   // A word is written only if a pixel has changed or a choice has counted.
-  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts || (make_room_i && full_q)
-      : changed_q || (move_q[3] && changes);
+  assign write_o = engine_i ? replaced_q : coarse_i ? bins_write : changed_q || (move_q[3] && changes);
 
   logic unused;
   assign unused = ^{1'b0, used_i, move_q[3], detected_t1, may_have_t1};
