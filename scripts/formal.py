@@ -39,7 +39,7 @@ RULES = (
 ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in the report, rounded up
 
 SEARCH_FRAMES = 180
-SIMULATE_SECONDS = 60
+SIMULATE_SECONDS = 300
 
 # An instance of a module, perhaps by a macro of dtof_array, or something of a package.
 USED_NAME = re.compile(r"^\s*(\w+) (?:#\(|u_\w+ \()|(\w+)::|`DTOF_TYPE\((\w+),|^\s*`DTOF_COLUMN\((\w+)\)", re.MULTILINE)
@@ -262,6 +262,8 @@ def failing_assertion(proof: Proof, folder: Path) -> str:
         (folder / "model.il").write_text(re.sub(r"cell \$_FF_ (\S+)\n", r"cell $_DFF_P_ \1\n    connect \\C \\clk_i\n", model))
     script = SIMULATE_SCRIPT.format(clock="-multiclock" if proof.free_clock else "-clock clk_i")
     log, _ = run_tool(["yosys", "-p", script], folder, "simulate.log", SIMULATE_SECONDS)
+    if not log:
+        raise FormalError(f"the replay of the counterexample in {folder.relative_to(ROOT)} takes more than {SIMULATE_SECONDS} s")
     failed = FAILED.findall(log)
     if not failed:
         raise FormalError(f"the counterexample in {folder.relative_to(ROOT)} does not fail when it is replayed")
