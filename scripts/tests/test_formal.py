@@ -5,6 +5,7 @@ import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import formal
 
@@ -35,6 +36,22 @@ class Replay(unittest.TestCase):
         for said in ("Warning: Assert minimum_properties.a_smaller (minimum.sv:33.43-33.83) failed.",
                      "Warning: Assertion minimum_properties.a_smaller (minimum.sv:33.43-33.83) failed."):
             self.assertEqual(formal.FAILED.findall(said), ["minimum_properties.a_smaller"])
+
+    def replay(self, log: str) -> str:
+        (formal.ROOT / "build").mkdir(exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=formal.ROOT / "build") as name:
+            folder = Path(name)
+            (folder / "trace.aiw").write_text("1\n0\n# DONE", encoding="ascii")
+            (folder / "model.aig").write_text("aig 2 1 1 1 0\n", encoding="ascii")
+            with mock.patch.object(formal, "run_tool", return_value=(log, 1.0)):
+                return formal.failing_assertion(mock.Mock(gated_clock=False, free_clock=False), folder)
+
+    def test_a_replay_that_was_stopped_is_no_replay_that_passes(self) -> None:
+        self.assertEqual(self.replay("Warning: Assert minimum_properties.a_smaller (minimum.sv:33.43-33.83) failed."), "a_smaller")
+        with self.assertRaisesRegex(formal.FormalError, "the replay of the counterexample in build/.* takes more than 300 s"):
+            self.replay("")
+        with self.assertRaisesRegex(formal.FormalError, "does not fail when it is replayed"):
+            self.replay("Executing SIM pass.")
 
 
 # Two registers beside each other. The assertion inside fails, and each register may begin with another value.

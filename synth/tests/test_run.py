@@ -233,6 +233,16 @@ class Attempts(unittest.TestCase):
         self.assertIs(run._best([overloaded, late]), late)
         self.assertIs(run._best([overloaded]), overloaded)
 
+    def test_an_attempt_counts_the_drivers_with_too_much_to_drive(self) -> None:
+        found = [run.loads.Load("a", 9.0, 8.0, 1), run.loads.Load("b", 1.0, 8.0, 1), run.loads.Load("c", 8.1, 8.0, 1)]
+        with mock.patch.object(run, "map_to_cells"), mock.patch.object(run, "efforts", return_value=(0, 1)), mock.patch.object(run, "same_logic"), \
+                mock.patch.object(run, "floorplan"), mock.patch.object(run._Netlist, "prepare"), \
+                mock.patch.object(run, "_timed", return_value=run._Attempt(part_of(run._Netlist), 1, 0.5, None)), \
+                mock.patch.object(run.loads, "of_all", return_value=found):
+            attempt = run._attempt(NAMED["ezpointer"], part_of(Technology, slow=part_of(library.Library)), Path(), 1, 0)
+        self.assertEqual(attempt.overloaded, 2)
+        self.assertFalse(attempt.closes_with_margins)
+
     def test_a_slow_path_of_the_array_decides_about_a_library_without_a_fast_corner(self) -> None:
         timed = part_of(run._Netlist, technology=part_of(Technology, fast=None),
                         time=lambda *asked: SimpleNamespace(slack=0.25 if asked == ("slow", "nominal") else 9))
