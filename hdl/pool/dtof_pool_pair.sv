@@ -17,7 +17,7 @@
 // Engine: two clocks after read_i, word_o has the word; in all other clocks this pair's contribution to word_o is 0. The words of
 // neighbouring pairs are ORed from pair to pair (beside_word_i, dtof_pool_line). The low half of word_o is the half that the engine
 // has selected. If eight bins need both halves, the high half of word_o is the word's high half. The engine writes one half; the
-// other half, and the part of the other pair, are written back unchanged:
+// other half, and the part of the other pair, stay as they are:
 //   clock after read_i   1                                               2
 //                        registered, the engine's word replaces the      written
 //                        selected half (replace_i)
@@ -83,7 +83,7 @@ module dtof_pool_pair #(
     input  logic                  engine_load_i,     // one clock after an engine's read of this SRAM, for this pair or the other
     input  logic [WORD_WIDTH-1:0] read_data_i,       // one clock after read_i
     output logic                  upper_t2_o,        // coarse, at T2 of a second row: a choice falls into the second of two parts
-    output logic [           3:0] write_o,           // pixels of the word that may differ from what is stored; in the engine's and coarse phase halves
+    output logic [           3:0] write_o,           // with write_i: pixels of the word that may differ from what is stored
     output logic [WORD_WIDTH-1:0] write_data_o,
     input  logic                  word_load_d_i,     // the word read in this clock is to be loaded into the register; registered here
     input  logic                  group_load_i,      // load the group that was read in the last clock
@@ -405,7 +405,7 @@ module dtof_pool_pair #(
 
   assign upper_t2_o = (upper_t2 != '0);
 
-  // Only parts are written in which a pixel has changed or a choice has counted.
+  // Only pixels are written that have changed. In the coarse phase, and for the engine, both pixels of a half are written.
   assign write_o = engine_i ? {{2{replaced_q[1]}}, {2{replaced_q[0]}}} : coarse_i ? {{2{bins_write[1]}}, {2{bins_write[0]}}}
       : {move_q[3] && changes, changed_q};
 

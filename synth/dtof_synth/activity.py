@@ -46,7 +46,7 @@ class Scope:
 
     module: str
     transitions: dict[str, dict[int, int]] = field(default_factory=dict)
-    accesses: dict[str, dict[tuple[str, str], int]] = field(default_factory=dict)  # (instance, read or write)
+    accesses: dict[str, dict[tuple[str, str], int]] = field(default_factory=dict)  # (instance; read, write, or part that was written)
 
 
 @dataclass
@@ -234,6 +234,7 @@ class Energy:
     sram: float = 0.0  # of the macros in it
     sram_reads: float = 0.0  # in sram
     gated_clock: float = 0.0  # gates' outputs and the registers behind them
+    sram_saved: float = 0.0  # by write masks, not in sram
 
     @property
     def total(self) -> float:
@@ -274,10 +275,15 @@ def energy(scope: Scope, phase: str, design: dict, library: Library, internal: d
     result.nets = sum(0.5 * ff * library.voltage**2 * transitions.get(bit, 0) for bit, ff in load.items())
     for (instance, kind), number in scope.accesses.get(phase, {}).items():
         macro = sram_model.macro(sram_model.Size.of_name(module["cells"][instance]["type"]))
+        has_mask = macro.size.parts > 1
         if kind == "part":
             fj = number * 1000 * (macro.write_energy_of(1) - macro.write_energy_of(0))
+            result.sram_saved -= fj
+        elif kind == "write":
+            fj = number * 1000 * macro.write_energy_of(0 if has_mask else 1)
+            result.sram_saved += number * 1000 * macro.write_energy - fj
         else:
-            fj = number * 1000 * (macro.read_energy if kind == "read" else macro.write_energy_of(0 if macro.size.parts > 1 else 1))
+            fj = number * 1000 * macro.read_energy
         result.sram += fj
         result.sram_reads += fj if kind == "read" else 0.0
     return result
