@@ -44,7 +44,7 @@ class Efforts(unittest.TestCase):
 
     def test_the_smallest_that_closes_is_taken_else_the_one_that_misses_least(self) -> None:
         def attempt(area: float, rank: float) -> run._Attempt:
-            return part_of(run._Attempt, rank=rank, closes_with_margins=rank >= 0, netlist=part_of(run._Netlist, cell_area=lambda: area))
+            return part_of(run._Attempt, rank=rank, closes_with_margins=rank >= 0, overloaded=0, netlist=part_of(run._Netlist, cell_area=lambda: area))
 
         self.assertEqual(run._best([attempt(3, 0.2), attempt(2, 0.0), attempt(1, -0.1)]).netlist.cell_area(), 2)
         self.assertEqual(run._best([attempt(3, -0.1), attempt(2, -0.2)]).netlist.cell_area(), 3)
