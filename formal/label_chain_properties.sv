@@ -104,6 +104,7 @@ module label_chain_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .read_data_o (other_message),
       .write_en_i  (command.write_scratch),
       .write_addr_i(scratch_row),
+      .write_parts_i(1'b1),
       .write_data_i(message)
   );
 

@@ -135,6 +135,7 @@ module photon_generator #(
       .read_data_o (target),
       .write_en_i  (write),
       .write_addr_i(fill ? pixel_q : write_pixel_q),
+      .write_parts_i(1'b1),
       .write_data_i(fill ? fill_code_q : write_code_q)
   );
 

@@ -31,10 +31,11 @@ module dtof_sram_1r1w #(parameter DEPTH = 16, parameter WIDTH = 8, parameter CFG
     input we_i, input [ADDR_WIDTH-1:0] waddr_i, input [WIDTH-1:0] wdata_i);
 endmodule
 (* blackbox *)
-module dtof_sram_1rw #(parameter DEPTH = 16, parameter WIDTH = 8, parameter CFG_WIDTH = 1,
+module dtof_sram_1rw #(parameter DEPTH = 16, parameter WIDTH = 8, parameter PARTS = 1, parameter CFG_WIDTH = 1,
     localparam ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1) (
     input clk_i, input [CFG_WIDTH-1:0] cfg_i, output [CFG_WIDTH-1:0] cfg_o,
-    input en_i, input we_i, input [ADDR_WIDTH-1:0] addr_i, input [WIDTH-1:0] wdata_i, output [WIDTH-1:0] rdata_o);
+    input en_i, input we_i, input [ADDR_WIDTH-1:0] addr_i, input [PARTS-1:0] wparts_i, input [WIDTH-1:0] wdata_i,
+    output [WIDTH-1:0] rdata_o);
 endmodule
 """
 

@@ -63,6 +63,7 @@ module dtof_parity_sram #(
       .read_data_o (stored),
       .write_en_i  (write_en_i),
       .write_addr_i(write_addr_i),
+      .write_parts_i(1'b1),
       .write_data_i(written)
   );
 

@@ -49,7 +49,7 @@ module dtof_pool_bins #(
     input  logic [          WORD_WIDTH-1:0] word_i,
     output logic                            first_o,       // four parts: the first two rows count
     output logic                            counts_o,      // a choice counts
-    output logic                            write_o,       // in the clock in which the part is written: it differs from what was read
+    output logic [                     1:0] write_o,       // in the clock in which the part is written: its half may differ from what was read
     output logic [          WORD_WIDTH-1:0] word_o         // word_i with the counts; word_i where nothing counts and no room is made
 );
 
@@ -60,12 +60,17 @@ module dtof_pool_bins #(
 
   localparam int CHOICE_WIDTH = COARSE_WIDTH + 1;
   logic [2*CHOICE_WIDTH-1:0] chosen;
-  logic count_q, counted_before;
-  logic [1:0] counts_here;
+  logic count_q;
+  logic [1:0] counts_here, counts_in_half, counted_before;
   logic [2*PLACE_WIDTH-1:0] places;
   logic [PART_WIDTH-1:0] part_q;
 
   assign counts_o = (counts_here != '0);
+
+  // The highest bit of a bin's place selects the half.
+  logic [1:0] upper;
+  assign upper = {places[2*PLACE_WIDTH-1], places[PLACE_WIDTH-1]};
+  assign counts_in_half = {(counts_here & upper) != '0, (counts_here & ~upper) != '0};
 
   always_ff @(posedge clk_i) begin
     count_q <= load_i;
@@ -84,7 +89,7 @@ module dtof_pool_bins #(
   assign rests = sweep_i || word_i[FROZEN_BIT];
   assign takes_quarter = make_room_i && full_q && !low_q;
   assign freezes = make_room_i && full_q && low_q;
-  assign write_o = counted_before || counts_o || (make_room_i && full_q);
+  assign write_o = counted_before | counts_in_half | {2{make_room_i && full_q}};
 
   always_ff @(posedge clk_i) begin
     if (count_q && sweep_i && !make_room_i) begin
@@ -111,13 +116,14 @@ module dtof_pool_bins #(
         assign counts_here[d] = count_q && valid && (part == part_q) && !rests;
       end
       assign first_o = 1'b0;
-      assign counted_before = 1'b0;
+      assign counted_before = '0;
       logic unused_keep;
       assign unused_keep = ^{keep_first_i, keep_last_i};
     end else begin : g_four_parts
       // The next four rows' first choices arrive before these choices have counted in all parts.
       logic [2*CHOICE_WIDTH-1:0] waiting_q, first_q, last_q, counted;
-      logic count_last_q, counted_q;
+      logic count_last_q;
+      logic [1:0] counted_q;
       assign counted = count_last_q ? last_q : first_q;
       assign first_o = count_q;
       assign counted_before = counted_q;
@@ -131,7 +137,7 @@ module dtof_pool_bins #(
           last_q <= chosen;
         end
         if (count_q) begin
-          counted_q <= counts_o;
+          counted_q <= counts_in_half;
         end
       end
       for (d = 0; d < 2; d = d + 1) begin : g_choice

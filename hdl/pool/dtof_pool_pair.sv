@@ -17,7 +17,7 @@
 // Engine: two clocks after read_i, word_o has the word; in all other clocks this pair's contribution to word_o is 0. The words of
 // neighbouring pairs are ORed from pair to pair (beside_word_i, dtof_pool_line). The low half of word_o is the half that the engine
 // has selected. If eight bins need both halves, the high half of word_o is the word's high half. The engine writes one half; the
-// other half, and the part of the other pair, are written back unchanged:
+// other half, and the part of the other pair, stay as they are:
 //   clock after read_i   1                                               2
 //                        registered, the engine's word replaces the      written
 //                        selected half (replace_i)
@@ -83,7 +83,7 @@ module dtof_pool_pair #(
     input  logic                  engine_load_i,     // one clock after an engine's read of this SRAM, for this pair or the other
     input  logic [WORD_WIDTH-1:0] read_data_i,       // one clock after read_i
     output logic                  upper_t2_o,        // coarse, at T2 of a second row: a choice falls into the second of two parts
-    output logic                  write_o,           // with write_i: this pair has data to write
+    output logic [           3:0] write_o,           // with write_i: pixels of the word that may differ from what is stored
     output logic [WORD_WIDTH-1:0] write_data_o,
     input  logic                  word_load_d_i,     // the word read in this clock is to be loaded into the register; registered here
     input  logic                  group_load_i,      // load the group that was read in the last clock
@@ -118,7 +118,8 @@ module dtof_pool_pair #(
 
   // Coarse.
 
-  logic counts_first, counts, bins_write;
+  logic counts_first, counts;
+  logic [1:0] bins_write;
   logic [WORD_WIDTH-1:0] counted_word;
 
   dtof_pool_bins #(
@@ -144,7 +145,9 @@ module dtof_pool_pair #(
 
   // The word register and the candidates of its group. A word has four pixels: column c of row r is pixel 2 c + r.
 
-  logic read_selected_q, upper_q, replaced_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load, changed_q;
+  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load;
+  logic [1:0] replaces, replaced_q;  // halves that the engine replaces or clears
+  logic [2:0] changed_q;  // pixels of the word register that have changed
   logic [CELLS_WIDTH-1:0] cells_q;
   logic bright_q;  // the group's background is so strong that its scores are thinned
   logic [PIXEL_WIDTH-1:0] moved;
@@ -160,7 +163,7 @@ module dtof_pool_pair #(
   always_ff @(posedge clk_i) begin
     ahead_q <= word_load_d_i;
     word_load_q <= ahead_q;
-    changed_q <= (takes_pixel != '0) || (changed_q && !word_load_q);
+    changed_q <= takes_pixel[2:0] | (changed_q & {3{!word_load_q}});
     if (group_load_i) begin
       cells_q <= group_upper_i ? read_data_i[HALF_WIDTH+:CELLS_WIDTH] : read_data_i[CELLS_WIDTH-1:0];
       bright_q <= (group_upper_i ? read_data_i[HALF_WIDTH+BRIGHT_FIRST+:dtof_pkg::POOL_THINNED_BITS]
@@ -170,7 +173,7 @@ module dtof_pool_pair #(
     if (engine_i) begin
       read_selected_q <= read_i && select_i;
       upper_q <= upper_i;
-      replaced_q <= clear_i || (replace_i && read_selected_q);
+      replaced_q <= replaces | {2{clear_i}};
       drives_lower_q <= read_selected_q && !upper_q;
       drives_upper_q <= read_selected_q && upper_q;
     end
@@ -381,6 +384,7 @@ module dtof_pool_pair #(
 
       // Bits that do not come from the SRAM: the engine's word, 0 to clear, counts, a pixel's next word.
       logic given;
+      assign replaces[c] = given;
       logic [HALF_WIDTH-1:0] given_bits, pixel_bits;
       assign given = replace_i && read_selected_q && upper_q == (c == 1);
       assign pixel_bits = {{(HALF_WIDTH - PIXEL_WIDTH) {gets_pixel[2*c+1]}}, {PIXEL_WIDTH{gets_pixel[2*c]}}};
@@ -401,8 +405,9 @@ module dtof_pool_pair #(
 
   assign upper_t2_o = (upper_t2 != '0);
 
-  // A word is written only if a pixel has changed or a choice has counted.
-  assign write_o = engine_i ? replaced_q : coarse_i ? bins_write : changed_q || (move_q[3] && changes);
+  // Only pixels are written that have changed. In the coarse phase, and for the engine, both pixels of a half are written.
+  assign write_o = engine_i ? {{2{replaced_q[1]}}, {2{replaced_q[0]}}} : coarse_i ? {{2{bins_write[1]}}, {2{bins_write[0]}}}
+      : {move_q[3] && changes, changed_q};
 
   logic unused;
   assign unused = ^{1'b0, used_i, move_q[3], detected_t1, may_have_t1};

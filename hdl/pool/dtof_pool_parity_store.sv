@@ -127,6 +127,7 @@ module dtof_pool_parity_store #(
       .read_data_o (stored),
       .write_en_i  (write),
       .write_addr_i(address),
+      .write_parts_i(1'b1),
       .write_data_i(written)
   );
 

@@ -2,7 +2,8 @@
 // poolPointer: up to four columns, in pairs, and the single-port SRAM that they share. A word has a part for each pair
 // (dtof_pool_pair), and all pairs access the same address in a clock, so one wide macro replaces two.
 //
-// An engine selects one pair and replaces a half of its part; the other pair's part is read and written back with it. The two pairs
+// An engine selects one pair and replaces a half of its part; the rest of the word stays as it is. Of a word only those parts are written
+// in which a pixel has changed, so that a macro with a write mask takes less power. The two pairs
 // may belong to two engines. These never select both pairs in a clock, because all engines work on the pair with the same number.
 // With PARITY = 1 dtof_pool_word_parity gives the parity of each word that is read or written; dtof_pool_parity_store keeps and checks it.
 // Latency: 1 clock from read_i to the pair's read_data_i; POOL_PARITY_CLOCKS to accessed_o and parity_o.
@@ -95,16 +96,23 @@ module dtof_pool_quad #(
 );
 
   logic [PAIRS*WORD_WIDTH-1:0] read_data, write_data;
-  logic [PAIRS-1:0] pair_writes, upper_t2;
+  // Parts of a word are pixels. If the two pixels of a half have not the same width, parts are halves.
+  localparam int PART_PIXELS = (HALF_WIDTH == 2 * PIXEL_WIDTH) ? 1 : 2;
+  localparam int PARTS = 4 * PAIRS / PART_PIXELS;
+
+  logic [4*PAIRS-1:0] writes;
+  logic [PARTS-1:0] part_writes;
+  logic [PAIRS-1:0] upper_t2;
   logic read, write, engine_load_q, nothing_upper, sweep_q, make_room_q;
 
   assign read = read_i && (!engine_i || select_i != '0) && !nothing_upper;
-  assign write = write_i && pair_writes != '0;
+  assign write = write_i && writes != '0;
 
   dtof_sram #(
       .PORTS(1),
       .DEPTH(DEPTH),
-      .WIDTH(PAIRS * WORD_WIDTH)
+      .WIDTH(PAIRS * WORD_WIDTH),
+      .PARTS(PARTS)
   ) u_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -115,6 +123,7 @@ module dtof_pool_quad #(
       .read_data_o (read_data),
       .write_en_i  (write),
       .write_addr_i(address_i),
+      .write_parts_i(part_writes),
       .write_data_i(write_data)
   );
 
@@ -154,8 +163,11 @@ module dtof_pool_quad #(
 
   `DTOF_ASSERT(a_one_pair, (select_i & (select_i - 1'b1)) == '0, "engines ask for both pairs of an SRAM at once")
 
-  genvar p;
+  genvar w, p;
   generate
+    for (w = 0; w < PARTS; w = w + 1) begin : g_part
+      assign part_writes[w] = writes[w*PART_PIXELS+:PART_PIXELS] != '0;
+    end
     for (p = 0; p < PAIRS; p = p + 1) begin : g_pair
       localparam int PAIR_COLUMNS = (2 * p + 1 < COLUMNS) ? 2 : 1;
       logic [LINE_WIDTH-1:0] word;
@@ -201,7 +213,7 @@ module dtof_pool_quad #(
           .engine_load_i   (engine_load_q),
           .read_data_i     (read_data[p*WORD_WIDTH+:WORD_WIDTH]),
           .upper_t2_o      (upper_t2[p]),
-          .write_o         (pair_writes[p]),
+          .write_o         (writes[4*p+:4]),
           .write_data_o    (write_data[p*WORD_WIDTH+:WORD_WIDTH]),
           .word_load_d_i   (word_load_d_i),
           .group_load_i    (group_load_i),

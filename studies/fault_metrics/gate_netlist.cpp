@@ -181,6 +181,9 @@ class NetlistReader {
     memory.write_address = nets(pins.at(memory.two_ports ? "waddr_i" : "addr_i"));
     memory.read_data = nets(pins.at("rdata_o"));
     memory.write_data = nets(pins.at("wdata_i"));
+    if (!memory.two_ports) {
+      memory.write_parts = nets(pins.at("wparts_i"));
+    }
     if (memory.width() != parameter("WIDTH")) {
       fail(fmt::format("memory '{}' has {} data bits, but its type has {}", cell_name, memory.width(),
                        parameter("WIDTH")));

@@ -54,6 +54,7 @@ struct Memory {
   std::vector<Net> read_address;
   std::vector<Net> write_address;
   std::vector<Net> read_data;
+  std::vector<Net> write_parts;  ///< enables of equal parts of the word, with `write_enable`; empty: all
   std::vector<Net> write_data;
 
   [[nodiscard]] std::uint32_t width() const { return static_cast<std::uint32_t>(read_data.size()); }

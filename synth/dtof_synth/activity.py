@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from . import netlist, sram_model
-from .errors import FlowError, found_in
+from .errors import FlowError
 from .library import Library
 from .liberty import Group
 
@@ -46,7 +46,7 @@ class Scope:
 
     module: str
     transitions: dict[str, dict[int, int]] = field(default_factory=dict)
-    accesses: dict[str, dict[tuple[str, str], int]] = field(default_factory=dict)  # (instance, read or write)
+    accesses: dict[str, dict[tuple[str, str], int]] = field(default_factory=dict)  # (instance; read, write, or part that was written)
 
 
 @dataclass
@@ -127,7 +127,7 @@ class _Counter:
 
     def index_bits(self) -> None:
         """Builds an index of the bits to which the macros' enables are connected."""
-        wanted = {(id(scope), bit) for scope, _, cell in self.macros for pin in ("en_i", "we_i", "re_i")
+        wanted = {(id(scope), bit) for scope, _, cell in self.macros for pin in ("en_i", "we_i", "re_i", "wparts_i")
                   for bit in cell["connections"].get(pin, []) if isinstance(bit, int)}
         self.bit_code = {}
         for code, places in self.signals.items():
@@ -146,9 +146,12 @@ class _Counter:
                 done = [("write" if write else "read")] if enabled else []
             else:
                 done = (["read"] if self.value(scope, pins["re_i"][0]) == "1" else []) + (["write"] if write else [])
+            counts = scope.accesses.setdefault(phase, {})
             for kind in done:
-                counts = scope.accesses.setdefault(phase, {})
                 counts[(instance, kind)] = counts.get((instance, kind), 0) + 1
+            if "write" in done and "wparts_i" in pins:
+                written = sum(self.value(scope, bit) == "1" for bit in pins["wparts_i"])
+                counts[(instance, "part")] = counts.get((instance, "part"), 0) + written
 
     def ports(self) -> dict[str, int]:
         """Known ports of the top, as numbers."""
@@ -231,6 +234,7 @@ class Energy:
     sram: float = 0.0  # of the macros in it
     sram_reads: float = 0.0  # in sram
     gated_clock: float = 0.0  # gates' outputs and the registers behind them
+    sram_saved: float = 0.0  # by write masks, not in sram
 
     @property
     def total(self) -> float:
@@ -270,9 +274,16 @@ def energy(scope: Scope, phase: str, design: dict, library: Library, internal: d
                     load[bit] = load.get(bit, 0.0) + pin_ff + library.wire_ff_per_sink
     result.nets = sum(0.5 * ff * library.voltage**2 * transitions.get(bit, 0) for bit, ff in load.items())
     for (instance, kind), number in scope.accesses.get(phase, {}).items():
-        ports, words, bits = found_in("Yosys", r"^sram_(1rw|1r1w)_(\d+)x(\d+)$", module["cells"][instance]["type"]).groups()
-        macro = sram_model.macro(sram_model.Size(1 if ports == "1rw" else 2, int(words), int(bits)))
-        fj = number * 1000 * (macro.read_energy if kind == "read" else macro.write_energy)
+        macro = sram_model.macro(sram_model.Size.of_name(module["cells"][instance]["type"]))
+        has_mask = macro.size.parts > 1
+        if kind == "part":
+            fj = number * 1000 * (macro.write_energy_of(1) - macro.write_energy_of(0))
+            result.sram_saved -= fj
+        elif kind == "write":
+            fj = number * 1000 * macro.write_energy_of(0 if has_mask else 1)
+            result.sram_saved += number * 1000 * macro.write_energy - fj
+        else:
+            fj = number * 1000 * macro.read_energy
         result.sram += fj
         result.sram_reads += fj if kind == "read" else 0.0
     return result

@@ -90,14 +90,16 @@ def memories(configuration: Configuration) -> dict[str, Size]:
         groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
         words = groups * (configuration["GROUP_SIZE"] // 2) + -(-groups // 2)
         pairs = -(-configuration.module_columns // 2)
-        return {"pixels and groups": Size(1, words, pairs * 2 * pool_word_width(configuration))}
+        half = pool_word_width(configuration)
+        parts = 4 * pairs if half == 2 * pool_pixel_width(configuration) else 2 * pairs
+        return {"pixels and groups": Size(1, words, pairs * 2 * half, parts)}
     sizes = {name: Size(*(readouts.evaluate(part, configuration.parameters) for part in size))
              for name, size in configuration.described.memories.items()}
     return {name: size for name, size in sizes.items() if size.words > 0}
 
 
-def pool_word_width(configuration: Configuration) -> int:
-    """Bits of the SRAM word: two pixel words or a group word (dtof_pkg::pool_track_width, pool_point_width, pool_group_width)."""
+def pool_pixel_width(configuration: Configuration) -> int:
+    """Bits of a pixel's word (dtof_pkg::pool_track_width, pool_point_width)."""
     labels = configuration["LABELS"]
     label_width = max(1, (labels - 1).bit_length())
     track = labels * configuration["SCORE_BITS"]
@@ -106,7 +108,13 @@ def pool_word_width(configuration: Configuration) -> int:
     moves = configuration["RIVAL_MOVES"]
     point = (configuration["ADVANTAGE_WIDTH"] + (16 if moves else 12) - configuration["POINTER_SHIFT"]
              + (7 if moves else 2 * label_width))
-    two_pixels = 2 * max(track, point)
+    return max(track, point)
+
+
+def pool_word_width(configuration: Configuration) -> int:
+    """Bits of a half of the SRAM word: two pixel words or a group word (dtof_pkg::pool_half_width, pool_group_width)."""
+    labels = configuration["LABELS"]
+    two_pixels = 2 * pool_pixel_width(configuration)
     background = min(max(two_pixels - 7 * labels, 4), 6)
     return max(two_pixels, 7 * labels + background)
 

@@ -53,6 +53,7 @@ class Parts:
     clock: float
     leakage: float
     sram_reads: float  # in sram
+    sram_saved: float = 0.0  # by write masks, not in sram
 
     @property
     def total(self) -> float:
@@ -243,7 +244,8 @@ def power(configuration: Configuration, light: str, result: Result, run_folder: 
         return Parts((one.nets + one.cells) * modules * to_mw, (shared.nets + shared.cells) * engine_scale * to_mw,
                      (control.nets + control.cells) * control_scale * to_mw,
                      srams(one.sram, control.sram, shared.sram), clock_mw + gated_mw, leak_mw,
-                     srams(one.sram_reads, control.sram_reads, shared.sram_reads))
+                     srams(one.sram_reads, control.sram_reads, shared.sram_reads),
+                     srams(one.sram_saved, control.sram_saved, shared.sram_saved))
 
     streaming_clocks = FRAME_ACQUISITIONS * configuration["PIXELS_PER_SRAM"] * configuration["SLOTS"]
     rate = activity.toggle_rate(column, STREAMING, design, counted.clocks[STREAMING])
@@ -289,8 +291,25 @@ def report(found: list[ScenePower], results: dict[str, Result], digest: str, see
         if limit is not None:
             lines.append(f"| {one.configuration.title}, {one.light}: at most {limit:g} mW | {one.streaming.total:.1f} mW | "
                          f"{'yes' if one.streaming.total <= limit else '**no**'} |")
-    lines += wide_word_lines(found)
+    lines += mask_lines(found) + wide_word_lines(found)
     return "\n".join([*lines, ""])
+
+
+def mask_lines(found: list[ScenePower]) -> list[str]:
+    """Lines on what the SRAMs' write masks save."""
+    masked = [one for one in found if one.streaming.sram_saved > 0]
+    if not masked:
+        return []
+    lines = ["", "## Write masks", "",
+             "An SRAM of a pool read-out writes the pixels of its word that changed. A write with a mask costs a read, and for each part that it "
+             "writes the part's share of what a whole write costs more than a read; this is an assumption about the macro. mW of the array with "
+             "macros that write the whole word instead:", "",
+             "| read-out | light | SRAM | total | SRAM without masks | total then |", "|---|---|" + "---:|" * 4]
+    for one in masked:
+        part = one.streaming
+        lines.append(f"| {one.configuration.title} | {one.light} | {part.sram:.1f} | {part.total:.1f} | {part.sram + part.sram_saved:.1f} | "
+                     f"{part.total + part.sram_saved:.1f} |")
+    return lines
 
 
 def wide_word_lines(found: list[ScenePower]) -> list[str]:

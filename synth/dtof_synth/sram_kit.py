@@ -18,7 +18,7 @@ from .liberty import THRESHOLDS, Group, bus_type, quoted
 from .sram_model import Macro, Size
 from .standard_cells import CINV_FF, CORNERS, FO4_NS, SLOW, Corner
 
-HEADER = ["ports", "words", "bits"]
+HEADER = ["ports", "words", "bits", "parts"]
 PIN_FF = 2 * CINV_FF  # an address or data pin is one input inverter of drive 2
 CLOCK_PIN_FF = 16 * CINV_FF  # the clock pin fans out to every latch and precharge driver
 OUTPUT_DRIVE = 4
@@ -36,7 +36,7 @@ def read_sizes(path: Path) -> list[Size]:
     try:
         return sorted({Size(*map(int, line)) for line in lines[1:]})
     except (ValueError, TypeError):
-        raise FlowError(f"{path}: every line must be three integers: {','.join(HEADER)}") from None
+        raise FlowError(f"{path}: every line must be four integers: {','.join(HEADER)}") from None
 
 
 def write_sizes(path: Path, sizes: list[Size]) -> None:
@@ -44,7 +44,7 @@ def write_sizes(path: Path, sizes: list[Size]) -> None:
         file.write("# Every SRAM size in use; written by `make synth-sizes` from configurations.toml.\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(HEADER)
-        writer.writerows((size.ports, size.words, size.bits) for size in sorted(sizes))
+        writer.writerows((size.ports, size.words, size.bits, size.parts) for size in sorted(sizes))
 
 
 def pins(size: Size) -> list[tuple[str, str, int]]:
@@ -52,8 +52,9 @@ def pins(size: Size) -> list[tuple[str, str, int]]:
     address = ("input", size.address_bits)
     data = size.bits
     if size.ports == 1:
+        mask = [("wparts_i", "input", size.parts)] if size.parts > 1 else []
         return [("clk_i", "input", 0), ("en_i", "input", 0), ("we_i", "input", 0), ("addr_i", *address),
-                ("wdata_i", "input", data), ("rdata_o", "output", data)]
+                *mask, ("wdata_i", "input", data), ("rdata_o", "output", data)]
     return [("clk_i", "input", 0), ("re_i", "input", 0), ("raddr_i", *address),
             ("we_i", "input", 0), ("waddr_i", *address), ("wdata_i", "input", data),
             ("rdata_o", "output", data)]
@@ -184,30 +185,35 @@ def behavioural_models(sizes: Iterable[Size]) -> str:
     lines = ["// SPDX-License-Identifier: Apache-2.0", "// Generated: every macro is a behavioural SRAM of its size."]
     for size in sorted(set(sizes)):
         connections = ", ".join(f".{name}({name})" for name, _, _ in pins(size))
+        parts = f", .PARTS({size.parts})" if size.parts > 1 else ""
+        all_parts = ", .wparts_i(1'b1)" if size.ports == 1 and size.parts == 1 else ""
         lines += ["", f"module {size.name} (",
                   ",\n".join(f"    {port}" for port in _ports(size, lambda bits: f"[{bits - 1}:0] " if bits else "")),
-                  ");", f"  {sram_model.KINDS[size.ports].module} #(.DEPTH({size.words}), .WIDTH({size.bits})) "
-                  f"u_memory ({connections}, .cfg_i(1'b0), .cfg_o());", "endmodule"]
+                  ");", f"  {sram_model.KINDS[size.ports].module} #(.DEPTH({size.words}), .WIDTH({size.bits}){parts}) "
+                  f"u_memory ({connections}{all_parts}, .cfg_i(1'b0), .cfg_o());", "endmodule"]
     return "\n".join([*lines, ""])
 
 
 def technology_module(ports: int, sizes: list[Size]) -> str:
     """Technology module of a port kind, which selects among the listed sizes."""
     module = sram_model.KINDS[ports].module
-    names = {"addr_i": "A", "raddr_i": "A", "waddr_i": "A", "wdata_i": "W", "rdata_o": "W"}
-    reference = pins(Size(ports, 16, 1))
+    names = {"addr_i": "A", "raddr_i": "A", "waddr_i": "A", "wdata_i": "W", "rdata_o": "W", "wparts_i": "P"}
+    reference = pins(Size(ports, 16, 2, 2))
     lines = ["// SPDX-License-Identifier: Apache-2.0",
              "// Generated from a list of SRAM sizes; any other size stops elaboration.",
-             f"module {module} #(", "    parameter DEPTH = 1,", "    parameter WIDTH = 1,", "    parameter CFG_WIDTH = 1", ") (",
+             f"module {module} #(", "    parameter DEPTH = 1,", "    parameter WIDTH = 1,",
+             *(["    parameter PARTS = 1,"] if ports == 1 else []), "    parameter CFG_WIDTH = 1", ") (",
              "    input wire [CFG_WIDTH-1:0] cfg_i,", "    output wire [CFG_WIDTH-1:0] cfg_o,"]
     for index, (name, direction, _) in enumerate(reference):
-        span = {"A": "[(DEPTH > 1 ? $clog2(DEPTH) : 1)-1:0] ", "W": "[WIDTH-1:0] "}.get(names.get(name, ""), "")
+        span = {"A": "[(DEPTH > 1 ? $clog2(DEPTH) : 1)-1:0] ", "W": "[WIDTH-1:0] ", "P": "[PARTS-1:0] "}.get(names.get(name, ""), "")
         lines.append(f"    {direction} wire {span}{name}{',' if index < len(reference) - 1 else ''}")
     lines += [");", "  assign cfg_o = cfg_i;  // these macros have no side band", "  generate"]
     keyword = "if"
     for size in [size for size in sizes if size.ports == ports]:
-        connections = ", ".join(f".{name}({name})" for name, _, _ in reference)
-        lines += [f"    {keyword} (DEPTH == {size.words} && WIDTH == {size.bits}) begin : g_{size.words}x{size.bits}",
+        connections = ", ".join(f".{name}({name})" for name, _, _ in pins(size))
+        parts = f" && PARTS == {size.parts}" if ports == 1 else ""
+        label = f"g_{size.words}x{size.bits}" + (f"_{size.parts}p" if size.parts > 1 else "")
+        lines += [f"    {keyword} (DEPTH == {size.words} && WIDTH == {size.bits}{parts}) begin : {label}",
                   f"      {size.name} u_macro ({connections});"]
         keyword = "end else if"
     # The first argument is the sentence, as Yosys 0.23 takes it.

@@ -6,7 +6,8 @@ minimises the area with 16 <= R <= 512 and an aspect ratio of at most 4, for whi
 are not used. Nothing is fitted to the thesis.
 Time, energy and leakage grow with size as CACTI 7's 40 nm low-standby-power arrays do (power laws in
 words and bits; a read's energy is linear in the bits, since the points end at 64 of them and each further bit
-has its own bit lines, sense amplifier and output); access time is anchored at 1.2 ns typical and 2.2 ns slow for the thesis's largest
+has its own bit lines, sense amplifier and output). A write with a mask costs a read, and the part of the difference to a write that the
+mask selects: the bit lines of the other bits swing as in a read. Access time is anchored at 1.2 ns typical and 2.2 ns slow for the thesis's largest
 column memory. Sources and fit errors: docs/reference/technology.md.
 """
 
@@ -15,7 +16,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .errors import FlowError
+from .errors import FlowError, found_in
 
 MUXES = (1, 2, 4, 8, 16, 32, 64)
 ROWS = (16, 512)
@@ -25,6 +26,7 @@ ACCESS_SLOW_NS = 2.2
 SETUP_NS = 0.15
 HOLD_NS = 0.05
 ANCHOR = (10240, 10)  # words, bits of the macro that has the access times above
+MASK_UM2 = 12.0  # a part's write enable: an input flip-flop and the gate that drives the write drivers of its bits
 
 
 @dataclass(frozen=True)
@@ -87,15 +89,23 @@ KINDS = {
 
 @dataclass(frozen=True, order=True)
 class Size:
-    """A macro size. ports: 1 (1RW) or 2 (1R1W)."""
+    """A macro size. ports: 1 (1RW) or 2 (1R1W). parts: parts of a word of equal width, each with a write enable; 1: no write mask."""
 
     ports: int
     words: int
     bits: int
+    parts: int = 1
 
     @property
     def name(self) -> str:
-        return f"{KINDS[self.ports].module.removeprefix('dtof_')}_{self.words}x{self.bits}"
+        parts = f"_{self.parts}p" if self.parts > 1 else ""
+        return f"{KINDS[self.ports].module.removeprefix('dtof_')}_{self.words}x{self.bits}{parts}"
+
+    @classmethod
+    def of_name(cls, name: str) -> Size:
+        """The size of a macro's name."""
+        ports, words, bits, parts = found_in("Yosys", r"^sram_(1rw|1r1w)_(\d+)x(\d+)(?:_(\d+)p)?$", name).groups()
+        return cls(1 if ports == "1rw" else 2, int(words), int(bits), int(parts or 1))
 
     @property
     def address_bits(self) -> int:
@@ -128,6 +138,11 @@ class Macro:
     @property
     def area(self) -> float:
         return self.width * self.height
+
+    def write_energy_of(self, parts: float) -> float:
+        """Energy in pJ of a write of this many parts of the word, on average. The bit lines of the other parts swing as in a read."""
+        least = min(self.read_energy, self.write_energy)
+        return least + (self.write_energy - least) * parts / self.size.parts
 
     def organisation(self) -> str:
         banks = f"{self.banks} banks of " if self.banks > 1 else ""
@@ -169,6 +184,8 @@ def macro(size: Size, mux: int | None = None) -> Macro:
                         f"ratio up to {MAX_ASPECT:g} exists, even in {banks} banks")
     _, chosen, rows, columns, width, height = best
     words = max(size.words, ((rows - 1) * chosen + 1) * banks)  # with those that nobody asked for
+    if size.parts > 1:
+        width += MASK_UM2 * size.parts / height
     growth = kind.access(words, size.bits) / kind.access(*ANCHOR)
     return Macro(size, banks, chosen, rows, columns, width * banks, height,
                  ACCESS_TYPICAL_NS * growth, ACCESS_SLOW_NS * growth,

@@ -5,6 +5,8 @@
 #            at least SHARE_OF_BEST of that. Ends if no slack is negative, or if no such gate is on the slowest PATHS, or if MOST_GROWN
 #            gates are enlarged. Does not try if a path misses by more than HOPELESS_NS, which no drive corrects. OpenSTA's total negative
 #            slack changes a little with every trial, so a gate can seem to help: a gate whose second trial shows no gain is not tried again.
+#            Bits of a word often have paths with equal delays to one register. No gate of one of them helps alone, so the gates at one place of
+#            all these twins are then enlarged together.
 #   drop     Removes buffers of `dispensable` if all paths stay met: {kind buffer driver drive}, where `drive` is the cell of
 #            the driver that carries the load without the buffer.
 #   shrink   Sets the gates of `shrinkable` to the next smaller drive if all paths stay met.
@@ -18,6 +20,8 @@ set PATHS 100
 set MOST_GROWN 500
 set SHARE_OF_BEST 0.15
 set HOPELESS_NS 0.4
+set MOST_TWINS 8
+set TWIN_NS 0.0005
 
 proc index_drives {} {
   foreach family $::drives {
@@ -133,6 +137,52 @@ proc best_growths {} {
   }
 }
 
+# Lists of growable gates on the slowest paths to one register whose slacks differ by less than TWIN_NS; empty if there is one path or no
+# late one.
+proc twins {} {
+  set found {}
+  foreach path [find_timing_paths -path_delay max -group_count $::MOST_TWINS -endpoint_count $::MOST_TWINS] {
+    set slack [get_property $path slack]
+    set end [get_full_name [get_property $path endpoint]]
+    if {$found eq ""} {
+      if {$slack >= 0} { return }
+      set limit [expr {$slack + $::TWIN_NS}]
+      set first_end $end
+    }
+    if {$slack < $limit && $end eq $first_end} { lappend found [growable $path] }
+  }
+  if {[llength $found] > 1} { return $found }
+}
+
+# Grows the gates at the place of twins where that helps most for its area, by one drive; returns them.
+proc grow_twins {} {
+  set paths [twins]
+  set before [total_negative_slack]
+  set most 0
+  set chosen {}
+  for {set place 0} {$place < [llength [lindex $paths 0]]} {incr place} {
+    set grown {}
+    set area 0
+    foreach gate [lsort -unique [lmap path $paths { lindex $path $place }]] {
+      if {$gate eq ""} { continue }
+      set now [get_property [lindex [instances {*}$gate] 0] ref_name]
+      lappend grown [list $gate $now $::larger($now)]
+      set area [expr {$area + [added_area $gate $now $::larger($now)]}]
+    }
+    if {[llength $grown] < 2} { continue }
+    foreach growth $grown { resize_to [instances {*}[lindex $growth 0]] [lindex $growth 2] }
+    set worth [expr {([total_negative_slack] - $before) / $area}]
+    foreach growth $grown { resize_to [instances {*}[lindex $growth 0]] [lindex $growth 1] }
+    if {$worth > $most} {
+      set most $worth
+      set chosen $grown
+    }
+  }
+  foreach growth $chosen { resize_to [instances {*}[lindex $growth 0]] [lindex $growth 2] }
+  if {$chosen ne ""} { array unset ::hopeless }
+  return $chosen
+}
+
 # Pins of a net, except its driver.
 proc sinks {net driver} {
   set found {}
@@ -160,10 +210,14 @@ proc grow_late_paths {} {
   if {[slack_of max] < -$::HOPELESS_NS} { return }
   for {set grown 0} {$grown < $::MOST_GROWN && [total_negative_slack] < 0} {} {
     set growths [best_growths]
-    if {$growths eq ""} { break }
-    set chosen [grow $growths]
-    if {$chosen eq ""} {
-      foreach growth $growths { set ::useless([lindex $growth 1]) 1 }
+    if {$growths eq ""} {
+      set chosen [grow_twins]
+      if {$chosen eq ""} { break }
+    } else {
+      set chosen [grow $growths]
+      if {$chosen eq ""} {
+        foreach growth $growths { set ::useless([lindex $growth 1]) 1 }
+      }
     }
     foreach growth $chosen {
       note {*}$growth

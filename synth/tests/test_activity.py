@@ -136,6 +136,19 @@ class Counting(unittest.TestCase):
         self.assertAlmostEqual(others.sram_reads, 2000 * sram_model.macro(Size(1, 160, 14)).read_energy)
         self.assertAlmostEqual(others.sram, others.sram_reads)
 
+    def test_a_write_mask_saves_what_it_leaves_alone(self):
+        netlist, _ = counted()
+        macro_type = netlist["modules"]["column"]["cells"]["p0"]
+        macro_type["type"] = "sram_1rw_160x14_7p"
+        accesses = {STREAMING: {("p0", "write"): 3, ("p0", "part"): 5, ("p0", "read"): 2}}
+        scope = activity.Scope("column", accesses=accesses)
+        found = activity.energy(scope, STREAMING, netlist, library(), {}, 3.0)
+        macro = sram_model.macro(Size(1, 160, 14, 7))
+        self.assertAlmostEqual(found.sram, 1000 * (2 * macro.read_energy + 3 * macro.read_energy
+                                                   + 5 / 7 * (macro.write_energy - macro.read_energy)))
+        self.assertAlmostEqual(found.sram + found.sram_saved, 1000 * (2 * macro.read_energy + 3 * macro.write_energy))
+        self.assertAlmostEqual(found.sram_reads, 2000 * macro.read_energy)
+
     def test_what_is_behind_a_clock_gate_is_charged_when_it_ticks(self):
         netlist, found = counted(VCD.replace("#6\n1!", "#6\n1!\n1'"))
         column = netlist["modules"]["column"]

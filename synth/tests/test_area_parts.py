@@ -31,7 +31,7 @@ class Parts(unittest.TestCase):
     def test_each_part(self):
         parts = area_parts.parts(result("poolpointer", ENGINES))
         self.assertAlmostEqual(parts.column_logic, 50 * 2400.0)  # a column module has four columns
-        self.assertAlmostEqual(parts.column_sram, 50 * sram_model.macro(Size(1, 100, 232)).area)
+        self.assertAlmostEqual(parts.column_sram, 50 * sram_model.macro(Size(1, 100, 232, 8)).area)
         self.assertAlmostEqual(parts.engines, 6000.0 - 120.0)
         self.assertAlmostEqual(parts.scratch_sram, 6 * sram_model.macro(Size(1, 160, 33)).area)
         self.assertAlmostEqual(parts.control, 9000.0 - 500.0 - 5880.0)
@@ -51,7 +51,7 @@ class Parts(unittest.TestCase):
     def test_engines_macros_are_placed_too(self):
         one = result("poolpointer", ENGINES)
         halos = 0.0
-        for number, size in ((50, Size(1, 100, 232)), (6, Size(1, 160, 33))):
+        for number, size in ((50, Size(1, 100, 232, 8)), (6, Size(1, 160, 33))):
             macro = sram_model.macro(size)
             halos += number * (macro.width + 4.0) * (macro.height + 4.0)
         self.assertAlmostEqual(area_parts.placed(one), (50 * 2400.0 + 9000.0) / 0.75 + halos, places=3)
@@ -63,9 +63,9 @@ class Parts(unittest.TestCase):
     def test_macros_that_the_points_do_not_cover(self):
         plain, pool = result("ezpointer", NONE), result("poolpointer", ENGINES)
         self.assertEqual(area_parts.doubtful_macros([plain]), [])
-        self.assertEqual(area_parts.doubtful_macros([plain, pool]), [Size(1, 100, 232)])
+        self.assertEqual(area_parts.doubtful_macros([plain, pool]), [Size(1, 100, 232, 8)])
         self.assertAlmostEqual(area_parts.total_with_other_mux(plain), plain.total_mm2 * 1e6, places=3)
-        larger = sram_model.macro(Size(1, 100, 232), 2).area - sram_model.macro(Size(1, 100, 232)).area
+        larger = sram_model.macro(Size(1, 100, 232, 8), 2).area - sram_model.macro(Size(1, 100, 232, 8)).area
         self.assertGreater(larger, 1000.0)
         self.assertAlmostEqual(area_parts.total_with_other_mux(pool), pool.total_mm2 * 1e6 + 50 * larger, places=3)
 
@@ -74,7 +74,7 @@ class Report(unittest.TestCase):
     def test_sentences_follow_the_figures(self):
         self.assertIn("No macro lacks", report._doubtful_section([result("ezpointer", NONE)]))
         text = report._doubtful_section([result("ezpointer", NONE), result("poolpointer", ENGINES)])
-        self.assertIn("| sram_1rw_100x232 | 1 | 11737 | 15123 | yes |", text)
+        self.assertIn("| sram_1rw_100x232_8p | 1 | 11833 | 15219 | yes |", text)
         self.assertRegex(text, r"With a multiplexer of 2: poolPointer [0-9.]+ instead of [0-9.]+ mm2\.")
 
 

@@ -51,14 +51,14 @@ class Mapping(unittest.TestCase):
     def test_a_cell_that_is_not_of_the_library_stops_the_flow(self) -> None:
         with self.assertRaisesRegex(FlowError, "poolpointer: unmapped cells in the netlist: a, b"):
             self.settings("poolpointer", 0, foreign=frozenset("ba"))
-        self.assertEqual(self.cells.call_args.args[2], {"sram_1rw_100x232", "sram_1rw_160x33"})
+        self.assertEqual(self.cells.call_args.args[2], {"sram_1rw_100x232_8p", "sram_1rw_160x33"})
 
     def test_elaboration_sees_the_memories_of_this_configuration_alone(self) -> None:
         with mock.patch.object(mapping.sram_kit, "write_rtl_views", return_value=["boxes", "one", "two"]) as views, \
                 mock.patch.object(mapping.tools, "write_settings") as written, mock.patch.object(mapping, "to_generic") as generic, \
                 mock.patch.object(mapping.clock_gating, "insert") as gates:
             mapping.elaborate(NAMED["poolpointer"], self.TECHNOLOGY, self.folder / "new", ["part"])
-        self.assertEqual(views.call_args.args[1], [Size(1, 100, 232), Size(1, 160, 33)])
+        self.assertEqual(views.call_args.args[1], [Size(1, 100, 232, 8), Size(1, 160, 33)])
         settings = written.call_args.args[1]
         self.assertEqual((settings["black_boxes"], settings["technology_files"], settings["kept_modules"]), ("boxes", ["one", "two"], ["*part*"]))
         self.assertEqual((settings["top"], settings["parameters"]), (NAMED["poolpointer"].top, NAMED["poolpointer"].rtl_parameters()))

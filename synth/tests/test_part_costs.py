@@ -82,7 +82,7 @@ class PartCosts(unittest.TestCase):
         self.assertAlmostEqual(found["quad", "u_distance"].power_mw["day"], 50 * (20 * 330e-6 + leak["INV_X1"] * 1e-6), places=9)
         # What is in no part of the quad has an inverter; its SRAM and its column leak elsewhere.
         self.assertAlmostEqual(found["quad", ""].power_mw["day"], 50 * (20 * 330e-6 + leak["INV_X1"] * 1e-6), places=9)
-        for block, times, scopes_of_block, size in (("quad", 50, 4, Size(1, 100, 232)), ("engine", 6, 2, Size(1, 160, 33))):
+        for block, times, scopes_of_block, size in (("quad", 50, 4, Size(1, 100, 232, 8)), ("engine", 6, 2, Size(1, 160, 33))):
             self.assertAlmostEqual(found[block, "SRAM"].area_um2, times * sram_model.macro(size).area)
             self.assertAlmostEqual(found[block, "SRAM"].power_mw["day"], times * scopes_of_block * 10 * 330e-6, places=9)
         total = sum(part.power_mw["day"] for part in parts)

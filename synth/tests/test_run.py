@@ -297,7 +297,7 @@ class Areas(unittest.TestCase):
     def test_an_arrays_area_by_hand(self) -> None:
         # poolPointer: 50 modules of four columns, each with an SRAM; 6 engines with one. 800 um2 of cells a module, 5,000 um2 shared.
         found = result("poolpointer", 200.0, 5000.0)
-        column, engine = (sram_model.macro(size).area for size in (Size(1, 100, 232), Size(1, 160, 33)))
+        column, engine = (sram_model.macro(size).area for size in (Size(1, 100, 232, 8), Size(1, 160, 33)))
         self.assertEqual((found.columns, found.column.area), (200, 200.0))
         self.assertAlmostEqual(found.sram_area, column / 4)
         self.assertAlmostEqual(found.engine_sram_area, 6 * engine)

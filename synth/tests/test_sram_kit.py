@@ -94,7 +94,20 @@ class Views(unittest.TestCase):
             "module sram_1rw_2x2 (", "    input wire clk_i,", "    input wire en_i,", "    input wire we_i,", "    input wire [0:0] addr_i,",
             "    input wire [1:0] wdata_i,", "    output wire [1:0] rdata_o", ");",
             "  dtof_sram_1rw #(.DEPTH(2), .WIDTH(2)) u_memory (.clk_i(clk_i), .en_i(en_i), .we_i(we_i), .addr_i(addr_i), .wdata_i(wdata_i), "
-            ".rdata_o(rdata_o), .cfg_i(1'b0), .cfg_o());", "endmodule", ""]))
+            ".rdata_o(rdata_o), .wparts_i(1'b1), .cfg_i(1'b0), .cfg_o());", "endmodule", ""]))
+
+    def test_a_macro_with_a_write_mask_has_a_pin_for_each_part(self):
+        masked = Size(1, 4, 6, 3)
+        self.assertIn(("wparts_i", "input", 3), sram_kit.pins(masked))
+        self.assertIn("  dtof_sram_1rw #(.DEPTH(4), .WIDTH(6), .PARTS(3)) u_memory (.clk_i(clk_i), .en_i(en_i), .we_i(we_i), .addr_i(addr_i), "
+                      ".wparts_i(wparts_i), .wdata_i(wdata_i), .rdata_o(rdata_o), .cfg_i(1'b0), .cfg_o());\n",
+                      sram_kit.behavioural_models([masked]))
+        text = sram_kit.technology_module(1, [Size(1, 4, 6), masked])
+        self.assertIn("    input wire [PARTS-1:0] wparts_i,\n", text)
+        self.assertIn("    if (DEPTH == 4 && WIDTH == 6 && PARTS == 1) begin : g_4x6\n      sram_1rw_4x6 u_macro (.clk_i(clk_i), .en_i(en_i), "
+                      ".we_i(we_i), .addr_i(addr_i), .wdata_i(wdata_i), .rdata_o(rdata_o));\n", text)
+        self.assertIn("    end else if (DEPTH == 4 && WIDTH == 6 && PARTS == 3) begin : g_4x6_3p\n      sram_1rw_4x6_3p u_macro (.clk_i(clk_i), "
+                      ".en_i(en_i), .we_i(we_i), .addr_i(addr_i), .wparts_i(wparts_i), ", text)
 
     def test_a_module_selects_among_the_sizes_of_its_ports(self):
         text = sram_kit.technology_module(2, [Size(1, 9, 9), Size(2, 4, 3), Size(2, 5, 3)])

@@ -83,6 +83,22 @@ class SramModel(unittest.TestCase):
         self.assertEqual([(size.name, size.address_bits, size.capacity) for size in (Size(1, 160, 14), Size(2, 1, 3), Size(2, 1024, 8), Size(1, 1025, 1))],
                          [("sram_1rw_160x14", 8, 2240), ("sram_1r1w_1x3", 1, 3), ("sram_1r1w_1024x8", 10, 8192), ("sram_1rw_1025x1", 11, 1025)])
 
+    def test_a_name_has_its_size(self) -> None:
+        for size in (Size(1, 160, 14), Size(2, 1, 3), Size(1, 100, 232, 8)):
+            self.assertEqual(Size.of_name(size.name), size)
+        self.assertEqual(Size(1, 100, 232, 8).name, "sram_1rw_100x232_8p")
+        with self.assertRaises(FlowError):
+            Size.of_name("sram_1rw_160")
+
+    def test_a_write_mask_by_hand(self) -> None:
+        # Eight flip-flops with gates of 12 um2. A write of no part costs a read, a write of all parts a write.
+        whole, masked = macro(Size(1, 100, 232)), macro(Size(1, 100, 232, 8))
+        self.assertAlmostEqual(masked.area, whole.area + 96, places=6)
+        self.assertEqual((masked.read_energy, masked.write_energy), (whole.read_energy, whole.write_energy))
+        self.assertAlmostEqual(masked.write_energy_of(0), whole.read_energy)
+        self.assertAlmostEqual(masked.write_energy_of(8), whole.write_energy)
+        self.assertAlmostEqual(masked.write_energy_of(2), 0.75 * whole.read_energy + 0.25 * whole.write_energy)
+
     def test_large_memories_are_banked(self) -> None:
         found = macro(Size(2, 163840, 10))
         self.assertGreater(found.banks, 1)
@@ -142,13 +158,13 @@ class SizesList(unittest.TestCase):
     def test_round_trip(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "sizes.csv"
-            sizes = [Size(1, 160, 6), Size(2, 5120, 10)]
+            sizes = [Size(1, 160, 6), Size(1, 160, 6, 2), Size(2, 5120, 10)]
             sram_kit.write_sizes(path, sizes)
             self.assertEqual(sram_kit.read_sizes(path), sizes)
             self.assertEqual(path.read_text(encoding="utf-8").splitlines()[0][:24], "# Every SRAM size in use")
 
     def test_bad_lists_are_refused(self) -> None:
-        for text in ("", "words,bits\n1,2\n", "ports,words,bits\n1,2\n", "ports,words,bits\n1,x,2\n"):
+        for text in ("", "ports,words,bits\n1,2,3\n", "ports,words,bits,parts\n1,2\n", "ports,words,bits,parts\n1,x,2,1\n"):
             with self.subTest(text=text), tempfile.TemporaryDirectory() as folder:
                 path = Path(folder) / "sizes.csv"
                 path.write_text(text, encoding="utf-8")

@@ -20,7 +20,7 @@ class Sizes(unittest.TestCase):
     def test_every_memory_of_columns_and_engines_is_needed_by_name(self) -> None:
         found = technology.needed_sizes([NAMED[name] for name in ("ezpointer", "ezpointer_bare", "poolpointer")])
         self.assertEqual(found[Size(2, 160, 14)], ["ezpointer"])
-        self.assertEqual((found[Size(1, 100, 232)], found[Size(1, 160, 33)]), (["poolpointer"], ["poolpointer"]))
+        self.assertEqual((found[Size(1, 100, 232, 8)], found[Size(1, 160, 33)]), (["poolpointer"], ["poolpointer"]))
         twice = technology.needed_sizes([NAMED["ezpointer"], NAMED["ezpointer"]])
         self.assertEqual(twice, {Size(2, 160, 14): ["ezpointer", "ezpointer"]})
 

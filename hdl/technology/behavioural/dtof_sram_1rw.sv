@@ -2,7 +2,8 @@
 // Stand-in for a single-port SRAM macro: one port that reads or writes, one clock. Replace it for silicon.
 //
 // Read:   with en_i and not we_i, rdata_o has the word one clock later and holds it until the next access.
-// Write:  with en_i and we_i, wdata_i is stored at the clock edge; rdata_o is undefined afterwards.
+// Write:  with en_i and we_i, the parts of wdata_i with wparts_i are stored at the clock edge; rdata_o is undefined afterwards. A part
+//         without wparts_i has the data that are stored already. So a macro with a write mask saves power, and one without may write all.
 // Undefined data are X, so that a module that relies on them fails at once, and synthesis is free to infer a block RAM
 // without extra logic. Verilator has no X: contents are random until written, and undefined read data are the inverted write data.
 // Side band: this memory does not use cfg_i and connects it to cfg_o, so that a simulation can check the whole path.
@@ -14,6 +15,7 @@
 module dtof_sram_1rw #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
+    parameter int PARTS = 1,  // parts of a word, of equal width, which a write may leave as they are
     parameter int CFG_WIDTH = 1,
     localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
 ) (
@@ -23,6 +25,7 @@ module dtof_sram_1rw #(
     input  logic                  en_i,
     input  logic                  we_i,
     input  logic [ADDR_WIDTH-1:0] addr_i,
+    input  logic [     PARTS-1:0] wparts_i,  // with we_i: parts that may differ from what is stored
     input  logic [     WIDTH-1:0] wdata_i,
     output logic [     WIDTH-1:0] rdata_o
 );
@@ -31,11 +34,18 @@ module dtof_sram_1rw #(
 
   logic [WIDTH-1:0] memory[DEPTH];
 
-  always_ff @(posedge clk_i) begin
-    if (en_i && we_i) begin
-      memory[addr_i] <= wdata_i;
+  localparam int PART_WIDTH = WIDTH / PARTS;
+
+  genvar p;
+  generate
+    for (p = 0; p < PARTS; p = p + 1) begin : g_part
+      always_ff @(posedge clk_i) begin
+        if (en_i && we_i && wparts_i[p]) begin
+          memory[addr_i][p*PART_WIDTH+:PART_WIDTH] <= wdata_i[p*PART_WIDTH+:PART_WIDTH];
+        end
+      end
     end
-  end
+  endgenerate
 
   always_ff @(posedge clk_i) begin
     if (en_i) begin

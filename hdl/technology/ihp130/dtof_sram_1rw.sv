@@ -13,6 +13,7 @@
 module dtof_sram_1rw #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
+    parameter int PARTS = 1,  // parts of a word, of equal width, which a write may leave as they are
     parameter int CFG_WIDTH = 1,
     localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
 ) (
@@ -22,11 +23,16 @@ module dtof_sram_1rw #(
     input  logic                  en_i,
     input  logic                  we_i,
     input  logic [ADDR_WIDTH-1:0] addr_i,
+    input  logic [     PARTS-1:0] wparts_i,  // with we_i: parts that may differ from what is stored
     input  logic [     WIDTH-1:0] wdata_i,
     output logic [     WIDTH-1:0] rdata_o
 );
 
   assign cfg_o = cfg_i;
+
+  // All parts are written: those without wparts_i have the data that are stored.
+  logic unused_parts;
+  assign unused_parts = ^wparts_i;
 
   logic [WIDTH-1:0] memory[DEPTH];
 

@@ -15,6 +15,7 @@
 module dtof_sram_1rw #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
+    parameter int PARTS = 1,  // parts of a word, of equal width, which a write may leave as they are
     parameter int CFG_WIDTH = 2,
     localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
 ) (
@@ -24,6 +25,7 @@ module dtof_sram_1rw #(
     input  logic                  en_i,
     input  logic                  we_i,
     input  logic [ADDR_WIDTH-1:0] addr_i,
+    input  logic [     PARTS-1:0] wparts_i,  // with we_i: parts that may differ from what is stored
     input  logic [     WIDTH-1:0] wdata_i,
     output logic [     WIDTH-1:0] rdata_o
 );
@@ -56,6 +58,7 @@ module dtof_sram_1rw #(
   dtof_macro_1rw #(
       .DEPTH    (DEPTH),
       .WIDTH    (WIDTH),
+      .PARTS    (PARTS),
       .CFG_WIDTH(CFG_WIDTH)
   ) u_macro (
       .clk_i  (clk_i),
@@ -64,17 +67,18 @@ module dtof_sram_1rw #(
       .en_i   (test ? test_en : en_i && !scan),
       .we_i   (test ? test_we : we_i),
       .addr_i (test ? test_addr : addr_i),
+      .wparts_i(wparts_i | {PARTS{test}}),
       .wdata_i(test ? test_wdata : wdata_i),
       .rdata_o(macro_rdata)
   );
 
   dtof_scan_bypass #(
-      .INPUTS(2 + ADDR_WIDTH + WIDTH),
+      .INPUTS(2 + ADDR_WIDTH + PARTS + WIDTH),
       .WIDTH (WIDTH)
   ) u_scan_bypass (
       .clk_i        (clk_i),
       .scan_i       (scan),
-      .inputs_i     ({en_i, we_i, addr_i, wdata_i}),
+      .inputs_i     ({en_i, we_i, addr_i, wparts_i, wdata_i}),
       .macro_rdata_i(macro_rdata),
       .rdata_o      (rdata_o)
   );

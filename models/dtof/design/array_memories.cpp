@@ -18,16 +18,21 @@ int label_bits(int labels) {
   return bits;
 }
 
-/// Two pixels or a group's word.
-int pool_word_width(const PoolPointerParameters& pool) {
-  constexpr int kCandidateBits = 7;
+constexpr int kCandidateBits = 7;
+
+int pool_pixel_width(const PoolPointerParameters& pool) {
   constexpr int kMovingBits = 16;  // leader and rival's 7
   constexpr int kRestingBits = 12;
   const int label = label_bits(pool.labels);
   const int track = pool.labels * pool.score_bits + (pool.offset_bits > 0 ? label + pool.offset_bits : 0);
   const int point = pool.count_bits + (pool.rival_moves ? kMovingBits : kRestingBits) - pool.pointer_shift +
                     (pool.rival_moves ? kCandidateBits : 2 * label);
-  const int two_pixels = 2 * std::max(track, point);
+  return std::max(track, point);
+}
+
+/// Two pixels or a group's word.
+int pool_half_width(const PoolPointerParameters& pool) {
+  const int two_pixels = 2 * pool_pixel_width(pool);
   const int background = std::clamp(two_pixels - kCandidateBits * pool.labels, 4, 6);
   return std::max(two_pixels, kCandidateBits * pool.labels + background);
 }
@@ -78,8 +83,9 @@ std::vector<MacroSize> column_memories(const ArrayChoice& array) {
     case Readout::kPoolPointerLean: {
       const int groups = ceiling(rows, p.pool.group_size);
       const int pairs = ceiling(array.module_columns(), 2);
-      return {
-          {1, groups * (p.pool.group_size / 2) + ceiling(groups, 2), pairs * 2 * pool_word_width(p.pool)}};
+      const int half = pool_half_width(p.pool);
+      const int parts = half == 2 * pool_pixel_width(p.pool) ? 4 : 2;
+      return {{1, groups * (p.pool.group_size / 2) + ceiling(groups, 2), pairs * 2 * half, pairs * parts}};
     }
   }
   return {};

@@ -21,6 +21,7 @@ constexpr double kAccessSlowNs = 2.2;  // of the anchor
 constexpr int kAnchorWords = 10240;
 constexpr int kAnchorBits = 10;
 constexpr int kMostBanks = 64;
+constexpr double kMaskUm2 = 12.0;
 
 struct PowerLaw {
   double scale;
@@ -119,7 +120,8 @@ SramMacro sram_macro(const MacroSize& size) {
                                  size.words, size.bits, kFewestRows, kMostRows));
   }
   const int words = std::max(size.words, ((best->rows - 1) * best->mux + 1) * banks);
-  return {.area_um2 = best->area * banks,
+  const double mask_um2 = size.parts > 1 ? kMaskUm2 * size.parts : 0.0;
+  return {.area_um2 = (best->area + mask_um2) * banks,
           .access_slow_ns =
               kAccessSlowNs * kind.access.of(words, size.bits) / kind.access.of(kAnchorWords, kAnchorBits),
           .read_pj = kind.read_energy.of(words, size.bits),

@@ -3,11 +3,12 @@
 
 namespace dtof {
 
-/// Size of an SRAM macro. ports: 1 (1RW) or 2 (1R1W).
+/// Size of an SRAM macro. ports: 1 (1RW) or 2 (1R1W). parts: parts of a word with a write enable each.
 struct MacroSize {
   int ports = 1;
   int words = 0;
   int bits = 0;
+  int parts = 1;
 
   [[nodiscard]] long capacity() const { return static_cast<long>(words) * bits; }
   bool operator==(const MacroSize&) const = default;

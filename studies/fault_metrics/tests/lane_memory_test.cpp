@@ -75,6 +75,36 @@ TEST_P(LaneMemoryTest, AnAddressOfOneLaneAlone) {
   EXPECT_FALSE(read(0, kOther) || read(1, kOther));
 }
 
+TEST(LaneMemory, OnlyPartsWithTheirEnableAreWritten) {
+  // One word of four bits in two parts. Nets 2: enable of the port, 3: write, 4, 5: enables of the parts.
+  Memory memory;
+  memory.two_ports = false;
+  memory.depth = 1;
+  memory.read_enable = 2;
+  memory.write_enable = 3;
+  memory.write_parts = {4, 5};
+  memory.read_data = {6, 7, 8, 9};
+  memory.write_data = {10, 11, 12, 13};
+  std::vector<Lanes> values(14);
+  LaneMemory lanes(memory, 1);
+  const auto write = [&](bool lower, bool upper, bool data) {
+    values[2] = values[3] = Lanes::all(true);
+    values[4] = Lanes::all(lower);
+    values[5] = Lanes::all(upper);
+    for (std::size_t net = 10; net < 14; ++net) {
+      values[net] = Lanes::all(data);
+    }
+    lanes.clock(values);
+    values[3] = Lanes::all(false);
+    lanes.clock(values);
+  };
+  write(true, true, false);
+  write(false, true, true);
+  for (std::size_t bit = 0; bit < 4; ++bit) {
+    EXPECT_EQ(lanes.read_data()[bit].get(0), bit >= 2) << bit;
+  }
+}
+
 TEST_P(LaneMemoryTest, AFlipIsOverwrittenAndAStuckBitIsNot) {
   write(0, false);
   write(1, false);
