@@ -106,13 +106,9 @@ module dtof_pool_column #(
 
   // Which timestamp the pixel uses, at T2: the preferred one; in the pointer phase the other one if only that one is inside.
 
-  // first_inside and second_inside arrive late, so the terms that do not depend on them are computed first.
-  logic first_inside, second_inside, odd_q, use_second_q, preferred, only_if_inside, unless_first_inside;
+  // first_inside and second_inside arrive late, so they are registered, and the choice follows at T2.
+  logic first_inside, second_inside, first_inside_q, second_inside_q, odd_q, point_q, prefers_second, use_second;
   genvar n;
-
-  assign preferred = has_second && !point_i && odd_t1_i;
-  assign only_if_inside = has_second && point_i;
-  assign unless_first_inside = has_second && point_i && odd_t1_i;
   logic [LABELS-1:0] hits;
 
   generate
@@ -150,29 +146,35 @@ module dtof_pool_column #(
 
   // From the column's registers only, so that the pointer's cell comes early; also high in some other clocks.
   assign compares_t1_o = (RIVAL_MOVES != 0) && ((has_first_q && detected_t1) || (SLOTS > 2 && has_second_q));
-  assign used_t2_o = use_second_q ? second_q : first_q;
+  // Outside the pointer phase the preferred timestamp is used.
+  assign prefers_second = has_second_q && odd_q;
+  assign use_second = point_q ? has_second_q && (odd_q ? second_inside_q || !first_inside_q : second_inside_q && !first_inside_q)
+                      : prefers_second;
+  assign used_t2_o = use_second ? second_q : first_q;
 
   always_ff @(posedge clk_i) begin
     odd_q <= odd_t1_i;
-    // Outside the pointer phase the preferred timestamp is used.
-    use_second_q <= preferred || (second_inside ? (only_if_inside && !first_inside) || unless_first_inside
-                                  : unless_first_inside && !first_inside);
+    point_q <= point_i;
+    first_inside_q <= first_inside;
+    second_inside_q <= second_inside;
   end
 
   // Coarse: from two pixels one is chosen: the first in even acquisitions, the second in odd acquisitions, or the other pixel if
   // this pixel has no timestamp.
 
-  logic held_valid_q, second_row_counts;
+  logic held_valid_q, second_row_counts, preferred_upper;
   logic [COARSE_WIDTH-1:0] held_bin_q, bin;
 
   assign detected_t1_o = has_first;
   assign may_have_t1_o = detected_t1 || has_first_q;
   assign detected_t2_o = has_first_q;
   assign bin = used_t2_o[NP-1-:COARSE_WIDTH];
+  // The SRAM's read enable depends on upper_t2_o, which therefore takes the short way.
+  assign preferred_upper = prefers_second ? second_q[NP-1] : first_q[NP-1];
 
   // The second pixel replaces the first if the first has no timestamp, or in odd acquisitions.
   assign second_row_counts = has_first_q && (odd_q || !held_valid_q);
-  assign upper_t2_o = second_row_counts ? bin[COARSE_WIDTH-1] : (held_valid_q && held_bin_q[COARSE_WIDTH-1]);
+  assign upper_t2_o = second_row_counts ? preferred_upper : (held_valid_q && held_bin_q[COARSE_WIDTH-1]);
 
   always_ff @(posedge clk_i) begin
     if (first_row_t2_i || (second_row_t2_i && second_row_counts)) begin
@@ -202,7 +204,7 @@ module dtof_pool_column #(
   );
 
   assign track_second = odd_q ? (hits != '0) || (first_hits_q == '0) : (hits != '0) && (first_hits_q == '0);
-  assign hits_of_second = (RIVAL_MOVES == 0 && point_i) ? use_second_q : track_second;
+  assign hits_of_second = (RIVAL_MOVES == 0 && point_q) ? use_second : track_second;
   assign hits_t2_o = (has_second_q && !hits_of_second) ? first_hits_q : hits;
 
   always_ff @(posedge clk_i) begin

@@ -5,6 +5,7 @@
 // dtof_pkg::POOL_LINE_PAIRS neighbouring pairs form a segment: their OR runs from pair to pair (dtof_pool_pair) and ends in a register
 // of this module. The OR of these registers is the line. So the longest path has the length of a segment, however many columns an
 // engine has, and every pair's word takes the same time.
+// The registers take words only while engines work, so that their clock can rest in stream phases.
 // Latency: POOL_LINE_CLOCKS from words_i to line_o.
 // Cost: WIDTH flip-flops per segment.
 
@@ -16,6 +17,7 @@ module dtof_pool_line #(
     parameter int WIDTH = 58
 ) (
     input  logic                      clk_i,
+    input  logic                      active_i,  // from the first word of an operation of the engine to its last word
     input  logic [SEGMENTS*WIDTH-1:0] words_i,  // one word per segment
     output logic [         WIDTH-1:0] line_o
 );
@@ -24,7 +26,9 @@ module dtof_pool_line #(
   integer i;
 
   always_ff @(posedge clk_i) begin
-    words_q <= words_i;
+    if (active_i) begin
+      words_q <= words_i;
+    end
   end
 
   always_comb begin

@@ -379,9 +379,10 @@ module dtof_pool_pointer_array #(
           .SEGMENTS(SEGMENTS),
           .WIDTH   (LINE_WIDTH)
       ) u_line (
-          .clk_i  (clk_i),
-          .words_i(segment_words),
-          .line_o (line)
+          .clk_i   (clk_i),
+          .active_i(received.engine),
+          .words_i (segment_words),
+          .line_o  (line)
       );
 
       assign engine_words[FIRST*HALF_WIDTH+:PAIRS*HALF_WIDTH] = {PAIRS{word}};

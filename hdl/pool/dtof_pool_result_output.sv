@@ -107,14 +107,14 @@ module dtof_pool_result_output #(
       row_q <= '0;
     end else begin
       waiting_q <= waiting_q + 2'(arrives) - 2'(take);
-      if (!valid_q) begin
-        valid_q <= take;
+      if (take) begin
+        valid_q <= 1'b1;
         last_q <= next_last;
         short_q <= (32'(next_column) >= LAST_ENGINE_COLUMNS);
         engine_q <= '0;
         column_q <= COLUMN_WIDTH'(next_column);
         row_q <= next_row;
-      end else if (tready_i) begin
+      end else if (valid_q && tready_i) begin
         valid_q <= !last_beat;
         engine_q <= engine_q + 1'b1;
         column_q <= column_q + COLUMN_WIDTH'(ENGINE_COLUMNS);
@@ -123,16 +123,18 @@ module dtof_pool_result_output #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (!valid_q) begin
+    if (take) begin
       results_q <= next_results;
-    end else if (tready_i) begin
+    end else if (valid_q && tready_i) begin
       results_q <= results_q >> RESULT_WIDTH;
     end
     if (take && waiting_q[1]) begin
-      waiting_sets_q <= {arriving, waiting_sets_q[SET_WIDTH+:SET_WIDTH]};
-    end else if (waiting_q == '0 || take) begin
+      waiting_sets_q[SET_WIDTH-1:0] <= waiting_sets_q[SET_WIDTH+:SET_WIDTH];
+    end else if (arrives && (waiting_q == '0 || take)) begin
       waiting_sets_q[SET_WIDTH-1:0] <= arriving;
-    end else if (arrives) begin
+    end
+    // If no set waits, this copy is not read.
+    if (arrives) begin
       waiting_sets_q[SET_WIDTH+:SET_WIDTH] <= arriving;
     end
   end

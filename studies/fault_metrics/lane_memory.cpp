@@ -99,16 +99,15 @@ void LaneMemory::write(std::span<const Lanes> values, const Lanes& enable) {
     return;
   }
   const std::size_t parts = std::max<std::size_t>(memory_.write_parts.size(), 1);
-  for_each_address(values, memory_.write_address, memory_.depth, enable,
-                   [&](std::uint32_t address, const Lanes& lanes) {
-                     for (std::size_t bit = 0; bit < width; ++bit) {
-                       const Lanes written = memory_.write_parts.empty()
-                                                 ? lanes
-                                                 : lanes & values[memory_.write_parts[bit * parts / width]];
-                       Lanes& stored = bits_[address * width + bit];
-                       stored = choose(written, values[memory_.write_data[bit]], stored);
-                     }
-                   });
+  for_each_address(
+      values, memory_.write_address, memory_.depth, enable, [&](std::uint32_t address, const Lanes& lanes) {
+        for (std::size_t bit = 0; bit < width; ++bit) {
+          const Lanes written =
+              memory_.write_parts.empty() ? lanes : lanes & values[memory_.write_parts[bit * parts / width]];
+          Lanes& stored = bits_[address * width + bit];
+          stored = choose(written, values[memory_.write_data[bit]], stored);
+        }
+      });
   for (const Stuck& stuck : stuck_) {
     bits_[stuck.bit].set(stuck.lane, stuck.value);
   }

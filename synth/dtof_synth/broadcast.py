@@ -21,12 +21,14 @@ DATA, OUTPUT = "D", "Q"
 class Registers:
     """Registers of a module in rows: each takes what the one before it has, without logic between them."""
 
-    def __init__(self, module: Module, sequential: set[str]) -> None:
+    def __init__(self, module: Module, sequential: set[str], gated: Container[int] = frozenset()) -> None:
+        """`gated`: clock nets behind clock gates. Registers on them are no part of a row, because a copy would load its gate."""
         self.output: dict[str, int] = {}  # net of each register
         self.data: dict[str, int] = {}
         for name, cell in module["cells"].items():
             pins = cell["connections"]
-            if cell["type"] in sequential and DATA in pins and OUTPUT in pins and isinstance(pins[DATA][0], int):
+            if cell["type"] in sequential and DATA in pins and OUTPUT in pins and isinstance(pins[DATA][0], int) and not any(
+                    bit in gated for bits in pins.values() for bit in bits):
                 self.output[name], self.data[name] = pins[OUTPUT][0], pins[DATA][0]
         self.driver = {net: name for name, net in self.output.items()}
         self.behind: dict[int, list[str]] = {}  # registers that take a net as it is

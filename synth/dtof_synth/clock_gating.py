@@ -3,7 +3,7 @@
 
 The RTL has enables and no gates, so simulation, proofs and FPGAs use plain registers. If the library has an integrated clock gate,
 registers of a column, a pair or an engine that share an enable get a gated clock instead of multiplexers, as a synthesis tool for silicon
-does it. The array's own registers stay unchanged: the fan-out trees copy some of them, and the floorplan would have to place their gates.
+does it. The top's own registers get a gate only in large groups, such as the words of an engine's line; the floorplan places these gates.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from .library import ClockGate, Library
 from .netlist import CLOCK_GATE_PREFIX, TREE_LOAD_SHARE
 
 FEWEST_BITS = 4  # below, a gate takes as much as it saves
+FEWEST_BITS_OF_TOP = 32  # the top's registers stand apart, so that each group needs gates and wires of its own
 _CELL = re.compile(r"^  cell (\S+) (\S+)$")
 _CONNECT = re.compile(r"^    connect \\(\w+) (.+)$")
 # Rising clock, enable high or low; with asynchronous reset; with a synchronous one that the enable rules, too.
@@ -83,15 +84,17 @@ def gated(text: str, library: Library) -> tuple[str, int]:
         attributes = begin
         while lines[attributes - 1].startswith("attribute "):
             attributes -= 1
-        if any(line.startswith(("attribute \\top ", "attribute \\blackbox ")) for line in lines[attributes:begin]):
+        if any(line.startswith("attribute \\blackbox ") for line in lines[attributes:begin]):
             continue
+        is_top = any(line.startswith("attribute \\top ") for line in lines[attributes:begin])
+        fewest = FEWEST_BITS_OF_TOP if is_top else FEWEST_BITS
         groups: dict[tuple, list[_Register]] = {}
         for register in _registers(lines, begin, end):
             groups.setdefault((register.clock, register.enable), []).append(register)
         wires: list[str] = []  # Yosys wants them before the cells
         added: list[str] = []
         for (clock, (enable, polarity)), registers in groups.items():
-            if len(registers) < FEWEST_BITS:
+            if len(registers) < fewest:
                 continue
             if polarity == "N":
                 wires.append(f"  wire $clock_gate_not${number}")

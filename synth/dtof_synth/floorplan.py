@@ -114,6 +114,20 @@ class Floorplan:
             where = place(name)
             if where is not None and name not in self.blocks:
                 self.places[name] = where
+        self._place_clock_gates()
+
+    def _place_clock_gates(self) -> None:
+        """Places each clock gate of the top in the middle of its registers."""
+        gates = {bit: name for name, cell in self.array["cells"].items() if name.startswith(netlist.CLOCK_GATE_PREFIX)
+                 for pin, bits in cell["connections"].items() if cell["port_directions"].get(pin) == "output" for bit in bits}
+        behind: dict[str, list[float]] = {}
+        for name, cell in self.array["cells"].items():
+            for pin, bits in cell["connections"].items():
+                if cell["port_directions"].get(pin) == "input":
+                    for bit in bits:
+                        if bit in gates:
+                            behind.setdefault(gates[bit], []).append(self[name])
+        self.places |= {gate: sum(places) / len(places) for gate, places in behind.items()}
 
 
 class _Spreader:
@@ -222,7 +236,7 @@ def spread(plan: Floorplan, library: Library, pin_load: Callable[[str, str], flo
     copied = {net for net in registers if any(sink.cell in plan.blocks for sink in builder.nets.get(net, []))}
     numbers: dict[int, int] = {}
     if stages > 2:
-        rows = Registers(array, set(library.sequential))
+        rows = Registers(array, set(library.sequential), netlist.clock_nets(array) - netlist.port_clock_nets(array))
         numbers = rows.numbers(copied, stages)
         outputs = {net: plan[name] for net, name in cell_of.items() if name in plan.blocks}
         # A register that drives an output port of the array stays beside the shared logic, where the ports are.

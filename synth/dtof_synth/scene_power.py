@@ -237,7 +237,7 @@ def power(configuration: Configuration, light: str, result: Result, run_folder: 
 
         one, control = of(column), of(counted.scopes[""])
         shared = of(engine) if engine else activity.Energy()
-        gated_mw = (one.gated_clock * modules + shared.gated_clock * engine_scale) * to_mw
+        gated_mw = (one.gated_clock * modules + shared.gated_clock * engine_scale + control.gated_clock * control_scale) * to_mw
         def srams(of_one: float, of_control: float, of_engine: float) -> float:
             return ((of_one + of_control) * modules + of_engine * configuration.engines) * to_mw
 

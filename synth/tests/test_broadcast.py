@@ -41,6 +41,12 @@ class Rows(unittest.TestCase):
                                          "b": cell("DFF_X1", {"D": 11}, {"Q": 12}), "c": cell("DFF_X1", {"D": 12}, {"Q": 13})}}
         self.assertEqual(Registers(module, SEQUENTIAL).numbers([13], 4), {})
 
+    def test_a_register_behind_a_clock_gate_is_no_part_of_a_row(self) -> None:
+        module = {"ports": {}, "cells": {f"stage{number}": cell("DFF_X1", {"D": 9 + number, "CK": 8 if number == 2 else 1}, {"Q": 10 + number})
+                                         for number in range(1, 5)}}
+        self.assertEqual(Registers(module, SEQUENTIAL).numbers([14], 4), {13: 3, 12: 2})
+        self.assertEqual(Registers(module, SEQUENTIAL, {8}).numbers([14], 4), {})
+
     def test_results_stand_evenly_on_the_way_back(self) -> None:
         found = rows(r1=(50, 51), r2=(51, 52), kept=(52, 53), other=(60, 61), twice=(60, 62))
         self.assertEqual(found.results({50: 0.0, 60: 300.0}, (), 150.0, 4), {"r1": 50.0, "r2": 100.0, "other": 225.0, "twice": 225.0})

@@ -87,9 +87,12 @@ class Trees(WithLibrary):
             top["cells"][f"g_column[{index}].u_column"]["port_directions"]["word"] = "output"
         top["cells"] |= {"or": cell("OR2_X1", {"A": 300, "B": 301}, {"Y": 302}), "segment": cell("DFF_X1", {"D": 302, "CK": 2}, {"Q": 303}),
                          "line": cell("BUF_X1", {"A": 303}, {"Y": 304}), "other": cell("DFF_X1", {"D": 302, "CK": 2}, {"Q": 305})}
+        gate = f"{netlist.CLOCK_GATE_PREFIX}0"
+        top["cells"] |= {gate: cell("CLKGATE_X1", {"CK": 2, "E": 4}, {"GCK": 306})}
+        top["cells"]["segment"]["connections"]["CK"] = [306]
         top["netnames"] = {"g_engine[0].u_line.words_q[7]": {"bits": [303]}, "u_line_of_another.words_q[7]": {"bits": [305]}}
         plan = Floorplan(design, 1, pitch_um=10.0)
-        self.assertEqual([plan[name] for name in ("or", "segment", "line", "other")], [20.0, 20.0, 20.0, 60.0])
+        self.assertEqual([plan[name] for name in ("or", "segment", "line", "other", gate)], [20.0, 20.0, 20.0, 60.0, 20.0])
 
     def test_every_column_hears_the_register_and_no_driver_is_overloaded_or_far_away(self) -> None:
         seed = int(os.environ.get("DTOF_TEST_SEED", random.randrange(2**31)))
