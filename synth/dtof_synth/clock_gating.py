@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from .errors import given
+from .errors import FlowError
 from .library import ClockGate, Library
 from .netlist import CLOCK_GATE_PREFIX, TREE_LOAD_SHARE
 
@@ -73,9 +73,11 @@ def _clusters(registers: list[_Register], most: int) -> list[list[_Register]]:
 def gated(text: str, library: Library) -> tuple[str, int]:
     """The netlist (RTLIL) with clock gates, and their number."""
     lines = text.splitlines()
-    gate = given(library.clock_gate, "the library has no clock gate")
+    if not library.clock_gates:
+        raise FlowError("the library has no clock gate")
     register_ff = max(library.clock_pin_ff[kind] for kind in library.sequential) + library.wire_ff_per_sink
-    most = max(FEWEST_BITS, int(gate.max_load_ff * TREE_LOAD_SHARE / register_ff))
+    carries = {gate: max(FEWEST_BITS, int(gate.max_load_ff * TREE_LOAD_SHARE / register_ff)) for gate in library.clock_gates}
+    most = max(carries.values())
     replaced: dict[int, list[str]] = {}  # lines that others take the place of
     number = 0
     begins = [index for index, line in enumerate(lines) if line.startswith("module ")]
@@ -101,6 +103,7 @@ def gated(text: str, library: Library) -> tuple[str, int]:
                 added += _inverter(number, enable)
                 enable = f"$clock_gate_not${number}"
             for cluster in _clusters(registers, most):
+                gate = next(gate for gate in library.clock_gates if carries[gate] >= len(cluster))
                 wires.append(f"  wire \\{CLOCK_GATE_PREFIX}{number}_clk")
                 added += _gate(number, clock, enable, gate)
                 for register in cluster:
@@ -119,7 +122,7 @@ def gated(text: str, library: Library) -> tuple[str, int]:
 
 def insert(netlist: Path, library: Library) -> int:
     """Inserts clock gates into an RTLIL file if the library has a gate; returns their number."""
-    if library.clock_gate is None:
+    if not library.clock_gates:
         return 0
     text, number = gated(netlist.read_text(encoding="utf-8"), library)
     netlist.write_text(text, encoding="utf-8")

@@ -58,7 +58,7 @@ class Library:
     clock_pin_ff: dict[str, float] = field(default_factory=dict)
     clock_energy_fj: dict[str, float] = field(default_factory=dict)
     energy_fj: float = 1.0  # the Liberty's unit of energy
-    clock_gate: ClockGate | None = None  # the smallest
+    clock_gates: list[ClockGate] = field(default_factory=list)  # smallest first
     checked: dict[str, set[str]] = field(default_factory=dict)  # pins of a cell that have a setup time
     drives: list[list[str]] = field(default_factory=list)  # cells of one function and the same pins, smallest first
 
@@ -166,8 +166,7 @@ def read(path: Path) -> Library:
             clock = next(pin for pin in inputs if pin.name == gate.clock_pin)
             result.clock_pin_ff[name] = clock.number("capacitance") * unit
             result.clock_energy_fj[name] = _internal_clock_energy(clock) * unit
-            if result.clock_gate is None or gate.area < result.clock_gate.area:
-                result.clock_gate = gate
+            result.clock_gates = sorted([*result.clock_gates, gate], key=lambda one: (one.area, one.name))
             continue
         if cell.children("ff"):
             result.sequential.add(name)

@@ -28,6 +28,7 @@ NANGATE_PITCHES = {"DFF": 17, "DFFR": 20, "DFFS": 20, "DLATCH": 10, "CLKGATE": 1
 CINV_FF = 1.70 * 40 / 45
 DFF_D_FF = 1.14 * 40 / 45
 DFF_CK_FF = 0.95 * 40 / 45
+GATE_CK_FF = {drive: ff * 40 / 45 for drive, ff in {1: 1.84, 2: 2.56, 4: 4.25}.items()}  # of a clock gate, by its drive
 
 # Time, ns: FO4 28 ps; registers as Nangate 45 nm in units of its FO4 of 25.8 ps.
 FO4_NS = 0.028
@@ -413,17 +414,19 @@ def gate_clock_energy_fj(voltage: float) -> float:
     return 0.5 * 4 * DFF_CK_FF * voltage**2
 
 
-GATE_PATH = (nand(2), inverter())  # the AND of a clock gate
+def gate_path(drive: int) -> tuple[Stage, ...]:
+    """The AND of a clock gate."""
+    return nand(2, _driver_of(drive)), inverter(drive)
 
 
-def clock_gate(corner: Corner) -> Group:
+def clock_gate(drive: int, corner: Corner) -> Group:
     """Integrated clock gate: latch and AND. Its clock must arrive earlier than that of the registers behind it by the gate's own delay.
     Clocks are ideal in this flow, so the setup time of the enable includes this delay."""
-    early, _ = path_delay(GATE_PATH, 0.0, MAX_LOAD_INVERTERS / 2 * CINV_FF, _tau(corner))
-    pitches = sequential_pitches("CLKGATE")
-    cell = _cell("CLKGATE_X1", pitches, DFF_LEAKAGE_NW * pitches / sequential_pitches("DFF") * corner.leakage)
+    early, _ = path_delay(gate_path(drive), 0.0, MAX_LOAD_INVERTERS / 2 * drive * CINV_FF, _tau(corner))
+    pitches = sequential_pitches("CLKGATE") + 2 * (_driver_of(drive) - 1) + drive - 1
+    cell = _cell(f"CLKGATE_X{drive}", pitches, DFF_LEAKAGE_NW * pitches / sequential_pitches("DFF") * corner.leakage)
     cell.attributes.append(("clock_gating_integrated_cell", "latch_posedge"))
-    clock = cell.add(_input_pin("CK", DFF_CK_FF, clock="true"))
+    clock = cell.add(_input_pin("CK", GATE_CK_FF[drive], clock="true"))
     clock.attributes.append(("clock_gate_clock_pin", "true"))
     clock.add(_energy("", gate_clock_energy_fj(corner.voltage)))
     enable = cell.add(_input_pin("E", DFF_D_FF))
@@ -432,10 +435,10 @@ def clock_gate(corner: Corner) -> Group:
                      _constraint("CK", "hold_rising", hold_ns(corner))]
     output = cell.add(Group("pin", ["GCK"], [("direction", "output"), ("clock_gate_out_pin", "true"),
                                              ("state_function", '"CK * E"'),
-                                             ("max_capacitance", f"{MAX_LOAD_INVERTERS * CINV_FF:.4f}")]))
+                                             ("max_capacitance", f"{MAX_LOAD_INVERTERS * drive * CINV_FF:.4f}")]))
     arc = output.add(Group("timing", [], [("related_pin", '"CK"'), ("timing_sense", "positive_unate")]))
-    arc.groups = _delay_tables(lambda slew, load: path_delay(GATE_PATH, slew, load, _tau(corner)), corner, 1)
-    output.add(_energy("CK", _path_energy(GATE_PATH, corner.voltage)))
+    arc.groups = _delay_tables(lambda slew, load: path_delay(gate_path(drive), slew, load, _tau(corner)), corner, drive)
+    output.add(_energy("CK", _path_energy(gate_path(drive), corner.voltage)))
     return cell
 
 
@@ -476,5 +479,5 @@ def library(corner: Corner, wire_um_per_fanout: float = WIRE_UM_PER_FANOUT) -> s
     root.groups += [gate_cell(gate, corner) for gate in gates()]
     root.groups += [flip_flop(kind, drive, corner)
                     for kind in ("DFF", "DFFR", "DFFS") for drive in (1, 2)]
-    root.groups += [latch(corner), clock_gate(corner), *tie_cells(corner)]
+    root.groups += [latch(corner), *(clock_gate(drive, corner) for drive in GATE_CK_FF), *tie_cells(corner)]
     return root.write() + "\n"

@@ -117,7 +117,7 @@ def parameters(configuration: Configuration, root: Path) -> dict[str, int]:
 
 def clock_gate(library: Library) -> str:
     """The technology folder's clock gate with the library's cell, which has no pin for scan mode."""
-    gate = given(library.clock_gate, "the library has no clock gate")
+    gate = given(next(iter(library.clock_gates), None), "the library has no clock gate")
     return "\n".join([
         "// SPDX-License-Identifier: Apache-2.0", "// Generated.", f"module {CLOCK_GATE} #(", "    parameter int NEEDED = 0", ") (",
         "    input  logic clk_i,", "    input  logic enable_i,", "    input  logic scan_mode_i,", "    output logic clk_o", ");",

@@ -71,34 +71,34 @@ class ClockGating(unittest.TestCase):
         cls.temporary.cleanup()
 
     def test_the_library_has_its_gate(self) -> None:
-        gate = self.library.clock_gate
-        assert gate is not None
-        self.assertEqual((gate.name, gate.clock_pin, gate.enable_pin, gate.output_pin), ("CLKGATE_X1", "CK", "E", "GCK"))
-        self.assertNotIn("CLKGATE_X1", self.library.sequential)
+        self.assertEqual([(gate.name, gate.clock_pin, gate.enable_pin, gate.output_pin) for gate in self.library.clock_gates],
+                         [(f"CLKGATE_X{drive}", "CK", "E", "GCK") for drive in (1, 2, 4)])
+        self.assertFalse([name for name in self.library.sequential if name.startswith("CLKGATE")])
 
     def test_every_large_enough_group_has_its_gates_and_nothing_else(self) -> None:
-        # 24 bits need two gates for the load, three groups of five bits have one each, and three bits have none. Of the top's registers
-        # only the 32 with the same enable have gates, three.
-        self.assertEqual(self.gates, 5 + 3)
+        # 24 bits need a gate of drive 2 for the load, three groups of five bits have one of drive 1 each, and three bits have none. Of the
+        # top's registers only the 32 with the same enable have a gate, of drive 4.
+        self.assertEqual(self.gates, 4 + 1)
         column = self.design["modules"]["gated_column"]
         clocks = netlist.clock_nets(column) - netlist.port_clock_nets(column)
-        self.assertEqual(len(clocks), 5)
+        self.assertEqual(len(clocks), 4)
         behind = [sum(cell["connections"].get("CK") == [clock] for cell in column["cells"].values()) for clock in clocks]
-        self.assertEqual(sorted(behind), [5, 5, 5, 12, 12])
+        self.assertEqual(sorted(behind), [5, 5, 5, 24])
         found = netlist.count(column, self.library)
-        self.assertEqual((found.flip_flops, found.clock_sinks), (42, 3 + 5))
-        self.assertAlmostEqual(found.clock_ff, 8 * standard_cells.DFF_CK_FF, places=3)
+        self.assertEqual((found.flip_flops, found.clock_sinks), (42, 3 + 4))
+        self.assertAlmostEqual(found.clock_ff, 3 * standard_cells.DFF_CK_FF + 3 * standard_cells.GATE_CK_FF[1] + standard_cells.GATE_CK_FF[2], places=3)
         array = self.design["modules"]["dtof_array"]
         gated = netlist.clock_nets(array) - netlist.port_clock_nets(array)
-        self.assertEqual(sorted(sum(cell["connections"].get("CK") == [clock] for cell in array["cells"].values()) for clock in gated), [10, 11, 11])
-        self.assertEqual(netlist.count(array, self.library).clock_sinks, 8 + 3)
+        self.assertEqual(sorted(sum(cell["connections"].get("CK") == [clock] for cell in array["cells"].values()) for clock in gated), [32])
+        self.assertEqual(netlist.count(array, self.library).clock_sinks, 8 + 1)
+        kinds = [cell["type"] for module in (column, array) for name, cell in module["cells"].items() if name.startswith(netlist.CLOCK_GATE_PREFIX)]
+        self.assertEqual(sorted(kinds), ["CLKGATE_X1"] * 3 + ["CLKGATE_X2", "CLKGATE_X4"])
 
     def test_no_gate_is_overloaded(self) -> None:
         column = self.design["modules"]["gated_column"]
-        gate = self.library.clock_gate
-        assert gate is not None
-        most = gate.max_load_ff * netlist.TREE_LOAD_SHARE
-        for clock in netlist.clock_nets(column) - netlist.port_clock_nets(column):
+        for gate in (cell for name, cell in column["cells"].items() if name.startswith(netlist.CLOCK_GATE_PREFIX)):
+            most = self.library.max_load_ff[gate["type"]]["GCK"] * netlist.TREE_LOAD_SHARE
+            clock, = gate["connections"]["GCK"]
             sinks = sum(cell["connections"].get("CK") == [clock] for cell in column["cells"].values())
             self.assertLessEqual(sinks * (standard_cells.DFF_CK_FF + self.library.wire_ff_per_sink), most)
 
@@ -143,11 +143,11 @@ endmodule
 
     def test_without_a_gate_in_the_library_nothing_changes(self) -> None:
         text = (self.folder / "generic.il").read_text(encoding="utf-8")
-        self.library.clock_gate, kept = None, self.library.clock_gate
+        self.library.clock_gates, kept = [], self.library.clock_gates
         try:
             self.assertEqual(clock_gating.insert(self.folder / "generic.il", self.library), 0)
         finally:
-            self.library.clock_gate = kept
+            self.library.clock_gates = kept
         self.assertEqual((self.folder / "generic.il").read_text(encoding="utf-8"), text)
 
 

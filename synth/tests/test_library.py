@@ -71,7 +71,7 @@ class Facts(unittest.TestCase):
     def test_registers_latches_and_clock_gates(self):
         found = self.read()
         self.assertEqual((found.sequential, found.latches), ({"DFF_X1"}, {"LATCH", "GATE_LOW", "GATE_OTHER"}))
-        self.assertEqual(found.clock_gate, ClockGate("GATE_X1", "CK", "E", "GCK", 7.0, 150.0))
+        self.assertEqual(found.clock_gates, [ClockGate("GATE_X1", "CK", "E", "GCK", 7.0, 150.0), ClockGate("GATE_X2", "CK", "E", "GCK", 9.0, 150.0)])
         self.assertEqual(found.checked, {name: {"D"} if name == "DFF_X1" else {"E"}
                                          for name in ("DFF_X1", "GATE_X1", "GATE_X2", "GATE_LOW", "GATE_OTHER")})
         self.assertEqual(found.clock_pin_ff, {"DFF_X1": 1.2, "GATE_X1": 3.0, "GATE_X2": 3.0})
