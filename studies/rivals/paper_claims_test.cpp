@@ -97,7 +97,7 @@ TEST(PaperClaims, EachHasAFigureAndAVerdict) {
     EXPECT_GT(ratio, 0.8) << scene.name;
     EXPECT_LT(ratio, 1.3) << scene.name;
   }
-  EXPECT_EQ(found.claims.size(), 18U);
+  EXPECT_EQ(found.claims.size(), 19U);
   for (const PaperClaim& claim : found.claims) {
     for (const std::string& text : {claim.paper, claim.claim, claim.test, claim.figure}) {
       EXPECT_FALSE(text.empty());
@@ -121,6 +121,8 @@ TEST(PaperClaims, LargerSketchesAreMoreExact) {
   for (const auto& [larger, smaller] : {std::pair{"sketch M = 32", "sketch M = 8"},
                                         {"sketch M = 8", "sketch M = 2"},
                                         {"spline sketch m = 51", "spline sketch m = 16"},
+                                        {"Legendre memory d = 32", "Legendre memory d = 16"},
+                                        {"Legendre memory d = 16", "Legendre memory d = 8"},
                                         {"truncated Fourier K = 64", "truncated Fourier K = 16"}}) {
     EXPECT_LT(narrow.ratio(larger, smaller), 0.7) << larger;
   }
