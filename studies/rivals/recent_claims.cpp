@@ -320,24 +320,27 @@ PaperClaim codes_beside_swept_histograms(const PaperClaimSettings& settings) {
           fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
 }
 
-/// Centre of mass around the highest bin, without the mean of the bins beyond `reach` codes of it.
-double centre_of_mass(std::span<const Detection> frame, int np, int reach) {
-  std::vector<double> counts(std::size_t{1} << static_cast<unsigned>(np), 0.0);
+/// Centre of mass of a histogram around its highest bin, without the mean of the bins more than `reach` codes
+/// away.
+double centre_of_mass(std::span<const Detection> frame, int np, double reach) {
+  constexpr int kBinCodes = 8;
+  std::vector<double> counts(static_cast<std::size_t>((1 << np) / kBinCodes), 0.0);
   for (const Detection& detection : frame) {
-    counts[detection.timestamp] += 1.0;
+    counts[detection.timestamp / kBinCodes] += 1.0;
   }
+  const auto bins = static_cast<std::ptrdiff_t>(std::lround(reach / kBinCodes));
   const auto best = std::ranges::max_element(counts) - counts.begin();
-  const auto begin = counts.begin() + std::max<std::ptrdiff_t>(0, best - reach);
-  const auto end = counts.begin() + std::min(std::ssize(counts), best + reach + 1);
+  const auto begin = counts.begin() + std::max<std::ptrdiff_t>(0, best - bins);
+  const auto end = counts.begin() + std::min(std::ssize(counts), best + bins + 1);
   const double inside = std::accumulate(begin, end, 0.0);
-  const auto bins = static_cast<double>(end - begin);
+  const auto width = static_cast<double>(end - begin);
   const double background =
-      (static_cast<double>(frame.size()) - inside) / (static_cast<double>(counts.size()) - bins);
+      (static_cast<double>(frame.size()) - inside) / (static_cast<double>(counts.size()) - width);
   double moment = 0.0;
   for (auto bin = begin; bin != end; ++bin) {
     moment += (*bin - background) * static_cast<double>(bin - counts.begin());
   }
-  return moment / (inside - bins * background);
+  return kBinCodes * (moment / (inside - width * background) + 0.5) - 0.5;
 }
 
 double mean_absolute(const std::vector<double>& errors) {
@@ -351,12 +354,11 @@ double mean_absolute(const std::vector<double>& errors) {
 PaperClaim legendre_memory_beside_the_centre_of_mass(const PaperClaimSettings& settings) {
   constexpr double kLowerPrecision = 5.0;
   constexpr double kSimilar = 1.5;
-  constexpr double kHalfWidth = 2.354820045;  // the pulse's full width at half maximum on both sides
+  constexpr double kFullWidth = 2.354820045;  // at half maximum, in standard deviations
   std::vector<std::string> texts;
   std::vector<bool> held;
   for (const auto& [name, photons] : kTwoLights) {
-    const auto reach =
-        static_cast<int>(std::lround(kHalfWidth * photons.pulse_sigma * std::ldexp(1.0, photons.np)));
+    const double reach = kFullWidth * photons.pulse_sigma * std::ldexp(1.0, photons.np);
     const PlaceEstimator centre = [np = photons.np, reach](PixelFrames frames) {
       return centre_of_mass(frames.back(), np, reach);
     };
@@ -382,14 +384,16 @@ PaperClaim legendre_memory_beside_the_centre_of_mass(const PaperClaimSettings& s
   }
   return {
       "MacLean, Stewart and Gyongy, arXiv 2401.10793",
-      "A spiking network without TDC has a five times lower precision than the centre of mass of a "
-      "histogram, "
-      "and a similar mean absolute error",
-      "Legendre memories of the orders 8 and 16 (the abstract states none) with a matched filter in place "
-      "of the trained network, so better than the network; beside the centre of mass within one full width "
-      "at half maximum of the highest of 1024 bins: at most 5 times its standard deviation, and at most "
-      "1.5 times its mean absolute error",
-      fmt::format("{}", fmt::join(texts, "; ")), claim_verdict(held)};
+      "A spiking network without TDC has five times lower precision than the centre of mass of a "
+      "histogram, and a similar mean absolute error",
+      "Legendre memories of the orders 8 and 16 (the abstract states no order), with a matched filter in "
+      "place of the trained network and so at least as exact, beside the centre of mass of 128 bins within "
+      "a pulse's full width at half maximum of the highest one: at most 5 times its standard deviation, "
+      "at most 1.5 times its mean absolute error",
+      fmt::format("{}. Neither has a systematic error here, so both ratios are alike; five times lower "
+                  "precision with a similar error needs one in the centre of mass",
+                  fmt::join(texts, "; ")),
+      claim_verdict(held)};
 }
 
 }  // namespace
