@@ -22,6 +22,7 @@
 #include "dtof/rival/coarse_histogram.hpp"
 #include "dtof/rival/equi_depth.hpp"
 #include "dtof/rival/guided_window.hpp"
+#include "dtof/rival/legendre_memory.hpp"
 #include "dtof/rival/linear_code.hpp"
 #include "src/arrays.hpp"
 #include "src/bindings.hpp"
@@ -78,6 +79,9 @@ std::unique_ptr<Rival> sketch(const SensorModel& sensor, const Numbers& n) {
 std::unique_ptr<Rival> spline(const SensorModel& sensor, const Numbers& n) {
   return make_spline_sketch(sensor, n.at("knots"), n.at("count_bits"));
 }
+std::unique_ptr<Rival> legendre(const SensorModel& sensor, const Numbers& n) {
+  return make_legendre_memory(sensor, n.at("order"));
+}
 
 const std::vector<Family>& families() {
   static const std::vector<Family> known = {
@@ -90,6 +94,7 @@ const std::vector<Family>& families() {
       {"guided", {{"count_bits", 10, 1, 16}}, guided},
       {"sketch", {{"size", 2, 1, 32}}, sketch},
       {"spline", {{"knots", 4, 2, 64}, {"count_bits", 12, 2, 24}}, spline},
+      {"legendre", {{"order", 8, 2, 32}}, legendre},
   };
   return known;
 }

@@ -56,7 +56,7 @@ class RivalTest(unittest.TestCase):
             ("histogram32", "histogram", {"bin_bits": 5}), ("hedh16", "hedh", {"parts": 16}),
             ("pedh8-optimised", "pedh", {"parts": 8, "optimised": 1}), ("fourier16-2bit", "fourier", {"counters": 16, "bits": 2}),
             ("gray8", "gray", {"counters": 8}), ("sketch4", "sketch", {"size": 4}),
-            ("spline16", "spline", {"knots": 16, "count_bits": 11}), ("correlations-slow", "correlations", {"shift": 12}),
+            ("spline16", "spline", {"knots": 16, "count_bits": 11}), ("legendre16", "legendre", {"order": 16}), ("correlations-slow", "correlations", {"shift": 12}),
             ("guided", "guided", {"count_bits": 10})]
         for name, family, numbers in families:
             listed, own = dtof.Rival(name), dtof.Rival(family, None, **numbers)

@@ -13,6 +13,7 @@
 #include "dtof/rival/coarse_histogram.hpp"
 #include "dtof/rival/equi_depth.hpp"
 #include "dtof/rival/guided_window.hpp"
+#include "dtof/rival/legendre_memory.hpp"
 #include "dtof/rival/linear_code.hpp"
 #include "dtof/rival/online_em.hpp"
 #include "rivals/recent_claims.hpp"
@@ -123,6 +124,10 @@ Bench all_codes(const IndependentPhotons& photons) {
   for (const int knots : {8, 16, 32, 51}) {
     bench.add("spline sketch", fmt::format("spline sketch m = {}", knots), knots,
               make_spline_sketch(sensor, knots, kCountBits));
+  }
+  for (const int order : {8, 12, 16, 32}) {
+    bench.add("Legendre memory", fmt::format("Legendre memory d = {}", order), order,
+              make_legendre_memory(sensor, order));
   }
   const auto add_code = [&](const char* title, const std::vector<CodeWave>& waves) {
     constexpr int kWeightBits = 4;

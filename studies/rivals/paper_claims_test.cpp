@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rivals/paper_claims.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/parallel.hpp"
 #include "dtof/rival/coarse_histogram.hpp"
+#include "dtof/rival/legendre_memory.hpp"
 #include "dtof/rival/linear_code.hpp"
 
 namespace dtof {
@@ -97,7 +102,7 @@ TEST(PaperClaims, EachHasAFigureAndAVerdict) {
     EXPECT_GT(ratio, 0.8) << scene.name;
     EXPECT_LT(ratio, 1.3) << scene.name;
   }
-  EXPECT_EQ(found.claims.size(), 18U);
+  EXPECT_EQ(found.claims.size(), 19U);
   for (const PaperClaim& claim : found.claims) {
     for (const std::string& text : {claim.paper, claim.claim, claim.test, claim.figure}) {
       EXPECT_FALSE(text.empty());
@@ -113,6 +118,7 @@ TEST(PaperClaims, EachHasAFigureAndAVerdict) {
   EXPECT_EQ(verdict("Equi-depth histograms tell more"), ClaimVerdict::kHolds);
   EXPECT_EQ(verdict("Precision below one centimetre"), ClaimVerdict::kHolds);
   EXPECT_EQ(verdict("An average of timestamps"), ClaimVerdict::kHolds);
+  EXPECT_EQ(verdict("A spiking network"), ClaimVerdict::kInPart);
 }
 
 TEST(PaperClaims, LargerSketchesAreMoreExact) {
@@ -121,10 +127,86 @@ TEST(PaperClaims, LargerSketchesAreMoreExact) {
   for (const auto& [larger, smaller] : {std::pair{"sketch M = 32", "sketch M = 8"},
                                         {"sketch M = 8", "sketch M = 2"},
                                         {"spline sketch m = 51", "spline sketch m = 16"},
+                                        {"Legendre memory d = 32", "Legendre memory d = 16"},
+                                        {"Legendre memory d = 16", "Legendre memory d = 8"},
                                         {"truncated Fourier K = 64", "truncated Fourier K = 16"}}) {
     EXPECT_LT(narrow.ratio(larger, smaller), 0.7) << larger;
   }
   EXPECT_THROW((void)narrow.code("no such code"), std::logic_error);
+}
+
+using Vector = std::vector<double>;
+using Matrix = std::vector<Vector>;
+
+/// x with a x = b, by elimination without exchange of rows: `a` is positive definite.
+Vector solved(Matrix a, Vector b) {
+  const std::size_t size = b.size();
+  for (std::size_t pivot = 0; pivot < size; ++pivot) {
+    for (std::size_t row = 0; row < size; ++row) {
+      const double factor = row == pivot ? 0.0 : a[row][pivot] / a[pivot][pivot];
+      for (std::size_t column = pivot; column < size && factor != 0.0; ++column) {
+        a[row][column] -= factor * a[pivot][column];
+      }
+      b[row] -= factor * b[pivot];
+    }
+  }
+  for (std::size_t row = 0; row < size; ++row) {
+    b[row] /= a[row][row];
+  }
+  return b;
+}
+
+/// Cramer-Rao bound of the place from a code's sums, whose noise is Gaussian if there are many detections.
+/// The numbers of detections of the pulse and of the background are unknown.
+double bound_of_sums(const std::vector<std::int16_t>& weights, std::size_t counters,
+                     const IndependentPhotons& photons, double place) {
+  const auto codes = static_cast<std::size_t>(std::ldexp(1.0, photons.np));
+  const double sigma = photons.pulse_sigma * static_cast<double>(codes);
+  const double signal = photons.signal_share * photons.detections;
+  const double background = (photons.detections - signal) / static_cast<double>(codes);
+  Matrix slopes(3, Vector(counters, 0.0));  // of the means, by place, signal and background
+  Matrix covariance(counters, Vector(counters, 0.0));
+  for (std::size_t x = 0; x < codes; ++x) {
+    const double z = (static_cast<double>(x) - place) / sigma;
+    const double share = std::exp(-0.5 * z * z) / (sigma * std::sqrt(2.0 * std::numbers::pi));
+    for (std::size_t k = 0; k < counters; ++k) {
+      const double weight = weights[x * counters + k];
+      slopes[0][k] += signal * share * z / sigma * weight;
+      slopes[1][k] += share * weight;
+      slopes[2][k] += weight;
+      for (std::size_t j = 0; j < counters; ++j) {
+        covariance[k][j] += (signal * share + background) * weight * weights[x * counters + j];
+      }
+    }
+  }
+  Matrix information(3, Vector(3, 0.0));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector whitened = solved(covariance, slopes[i]);
+    for (std::size_t j = 0; j < 3; ++j) {
+      information[i][j] = std::inner_product(whitened.begin(), whitened.end(), slopes[j].begin(), 0.0);
+    }
+  }
+  return std::sqrt(solved(information, {1.0, 0.0, 0.0})[0]);
+}
+
+// So the matched filter stands for the best that can be done with the numbers of a Legendre memory.
+TEST(PaperClaims, LegendreMemoriesAreReadAsWellAsTheirBoundAllows) {
+  constexpr int kPlaces = 12;
+  for (const std::size_t scene : {0U, 1U}) {
+    const PaperScene& photons = on_all_threads().scenes[scene];
+    for (const int order : {8, 16}) {
+      const std::vector<std::int16_t> weights = legendre_weights(10, order, 4);
+      double squares = 0.0;
+      for (int i = 0; i < kPlaces; ++i) {
+        const double bound = bound_of_sums(weights, static_cast<std::size_t>(order), photons.photons,
+                                           100.0 + 823.0 * (i + 0.5) / kPlaces);
+        squares += bound * bound / kPlaces;
+      }
+      const Estimate error = photons.code(fmt::format("Legendre memory d = {}", order)).rmse;
+      EXPECT_LT(error.interval.low, 1.1 * std::sqrt(squares)) << photons.name << " " << order;
+      EXPECT_GT(error.interval.high, 0.95 * std::sqrt(squares)) << photons.name << " " << order;
+    }
+  }
 }
 
 TEST(PaperClaims, DoNotDependOnTheThreads) {

@@ -7,6 +7,7 @@
 #include "dtof/rival/equi_depth.hpp"
 #include "dtof/rival/equi_depth_fit.hpp"
 #include "dtof/rival/guided_window.hpp"
+#include "dtof/rival/legendre_memory.hpp"
 #include "dtof/rival/linear_code.hpp"
 #include "dtof/rival/linearised_average.hpp"
 #include "dtof/rival/online_em.hpp"
@@ -32,6 +33,9 @@ constexpr std::string_view kOnlineEm =
     "Poisson, Guicquero, Coriat and Sicard, a 2-stage EM algorithm for online peak detection (CEA-Leti)";
 constexpr std::string_view kSketch = "Sheehan, Tachella and Davies, arXiv 2102.08732";
 constexpr std::string_view kSpline = "arXiv 2210.07314";
+constexpr std::string_view kSpiking =
+    "Legendre memory unit (Voelker, Kajic and Eliasmith, NeurIPS 2019) with a matched filter: an upper bound "
+    "of the spiking network of MacLean, Stewart and Gyongy (arXiv 2401.10793) with a unit of this order";
 constexpr std::string_view kLinearised =
     "Tontini et al., IEEE Sensors Journal 24(4), 2024 (arXiv 2310.09176)";
 constexpr std::string_view kAsynchronous = "Liu et al., arXiv 2509.19192; ISCAS 2025";
@@ -82,6 +86,11 @@ Made spline(const Sensor& sensor) {
   return make_spline_sketch(sensor, kKnots, kCountBits);
 }
 
+template <int kOrder>
+Made legendre(const Sensor& sensor) {
+  return make_legendre_memory(sensor, kOrder);
+}
+
 constexpr std::array kRivals = std::to_array<RivalEntry>({
     {"histogram32", "32-bin histogram", kWholeFrame,
      [](const Sensor& sensor) { return make_coarse_histogram(sensor, {}); },
@@ -125,6 +134,9 @@ constexpr std::array kRivals = std::to_array<RivalEntry>({
     {"sketch4", "sketch M = 4", kSketch, sketch<4>},
     {"spline4", "spline sketch m = 4", kSpline, spline<4, 12>, RivalClaim{{61.2, 18.2}, {74.6, 21.6}}},
     {"spline16", "spline sketch m = 16", kSpline, spline<16, 11>, RivalClaim{{1.6, 0.0}, {8.6, 2.6}}},
+
+    {"legendre8", "Legendre memory d = 8", kSpiking, legendre<8>},
+    {"legendre16", "Legendre memory d = 16", kSpiking, legendre<16>},
 
     {"linearised", "linearised average", kLinearised, make_linearised_average},
     {"cfar", "CFAR detector, first report", kAsynchronous, cfar<true>},

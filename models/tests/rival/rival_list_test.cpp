@@ -42,6 +42,8 @@ TEST(RivalList, BitsOfAPixel) {
   EXPECT_EQ(bits("correlations"), 2 * 12);
   EXPECT_EQ(bits("sketch2"), 4 * 21);
   EXPECT_EQ(bits("spline16"), 16 * 11 + 1);
+  EXPECT_EQ(bits("legendre8"), 8 * 17);
+  EXPECT_EQ(bits("legendre16"), 16 * 17);
 }
 
 // What the estimates of area and host work take.
