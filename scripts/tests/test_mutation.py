@@ -12,6 +12,7 @@ from mutation import (
     cpp,
     cpp_operators,
     equivalence,
+    explained,
     python_operators,
     remembered,
     report,
@@ -357,6 +358,14 @@ class RunOfOnePart(unittest.TestCase):
             with tempfile.TemporaryDirectory() as name, mock.patch.object(mutate, "explain", lambda verdict, _: verdict), \
                     mock.patch.object(mutate, "load"):  # fmt: skip
                 self.assertNotIn("Measured before", self.run_of(Path(name), verdicts, status)[1])
+
+
+class Explained(unittest.TestCase):
+    def test_every_explained_line_is_in_its_source(self) -> None:
+        for one in explained.load():
+            lines = list(map(str.strip, (explained.ROOT / one.file).read_text(encoding="utf-8").splitlines()))
+            places = [index for index, line in enumerate(lines) if line == one.source and one.above in (None, lines[index - 1])]
+            self.assertTrue(places, f"scripts/mutation/explained.toml: {one.file} no longer has the line {one.source!r}")
 
 
 class Remembered(unittest.TestCase):
