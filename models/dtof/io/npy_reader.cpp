@@ -39,7 +39,9 @@ struct NpyReader::Opened {
     if (length > NpyHeader::kLongest) {
       fail_in_file(label, fmt::format("the NPY header has more than {} MiB", NpyHeader::kLongest >> 20U));
     }
-    add(begin, length);
+    if (length > begin.size()) {  // else it holds no text that could be read
+      add(begin, length);
+    }
     NpyHeader header(label, begin, bytes->size());
     return {.bytes = std::move(bytes), .header = std::move(header)};
   }

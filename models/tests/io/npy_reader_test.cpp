@@ -109,6 +109,8 @@ TEST_F(NpyReaderTest, RefusalsAreThoseOfAHeldFile) {
     refused_alike(good.substr(0, size));
   }
   refused_alike("no NPY file");
+  refused_alike("\x93NUMPY" + std::string("\1\0\0\0", 4) + std::string(32, '\0'));
+  refused_alike("\x93NUMPY" + std::string("\1\0\1\0", 4) + std::string(32, '\0'));
   refused_alike(good + "behind");
   refused_alike(header_of("<c8", "(2, 2)", false) + std::string(32, '\0'));
   refused_alike(header_of("<u8", "(0, 2)", false));
