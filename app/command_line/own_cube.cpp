@@ -54,17 +54,26 @@ OwnMap read_own_cube(const CubeOptions& options, const SensorModel& sensor, int 
                      double reflectivity) {
   const TransientFile file = read_transient_file(options.file);
   const TransientScale scale = scale_of(options, file, sensor);
+  bool reading = false;  // an error of the reader names the file itself
+  const NextValues next = [&](std::span<double> values) {
+    reading = true;
+    file.array->next(values);
+    reading = false;
+  };
   try {
-    OwnMap map{scene_from_transient_cube(file.array.shape, file.array.values, scale, sensor.pulse_fwhm_s,
-                                         columns, rows, reflectivity),
+    OwnMap map{scene_from_transient_cube(file.array->shape(), next, scale, sensor.pulse_fwhm_s, columns, rows,
+                                         reflectivity),
                {}};
-    const auto [width, height] = transient_cube_size(file.array.shape);
+    const auto [width, height] = transient_cube_size(file.array->shape());
     map.description =
         fmt::format("{} {} bins of {:g} ps.",
                     resampling_sentence("Transient cube " + options.file, width, height, map.targets),
-                    file.array.shape[2], scale.bin_width_s * kPicosecondsPerSecond);
+                    file.array->shape()[2], scale.bin_width_s * kPicosecondsPerSecond);
     return map;
   } catch (const InputError& error) {
+    if (reading) {
+      throw;
+    }
     throw InputError(fmt::format("{}: {}", options.file, error.what()));
   }
 }

@@ -14,6 +14,7 @@
 #include "dtof/core/error.hpp"
 #include "dtof/io/npy.hpp"
 #include "dtof/io/result_csv.hpp"
+#include "dtof/recording/recorded_array.hpp"
 #include "src/arrays.hpp"
 #include "src/bindings.hpp"
 #include "src/work.hpp"

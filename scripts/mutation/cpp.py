@@ -28,7 +28,8 @@ READOUT_SHARE = 0.6
 OTHERS = [
     "core/detection.*", "core/parallel.cpp", "core/parameters.*", "core/pixel_sampler.hpp", "core/random.*",
     "core/row_region.cpp", "core/select_columns.cpp", "metrics/*", "host/*", "photon/*", "io/csv_fields.cpp",
-    "io/depth_image.cpp", "io/input_file.cpp", "io/json_file.cpp", "io/npy.cpp", "io/result_csv.cpp",
+    "io/depth_image.cpp", "io/input_file.cpp", "io/json_file.cpp", "io/npy.cpp", "io/npy_header.cpp",
+    "io/npy_reader.cpp", "io/result_csv.cpp",
     "recording/histogram_stream.*", "recording/photon_times_mat.cpp", "recording/resampling.*",
     "recording/stream_csv.cpp", "recording/tmf8820_json.*", "recording/tmf8829_json.*",
 ]  # fmt: skip

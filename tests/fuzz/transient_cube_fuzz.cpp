@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 
 #include "dtof/core/error.hpp"
 #include "dtof/recording/transient_file.hpp"
@@ -11,18 +12,13 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const auto [array, bin_width_s, start_s] =
-        dtof::read_transient_file(dtof::fuzz::input_file(data, size).string());
-    std::size_t elements = 1;
-    for (const std::size_t extent : array.shape) {
-      elements *= extent;
-    }
-    if (elements != array.values.size() || elements == 0) {
+    const dtof::TransientFile file = dtof::read_transient_file(dtof::fuzz::input_file(data, size).string());
+    if (file.array->count() == 0) {
       std::abort();
     }
     const dtof::TargetMap scene = dtof::scene_from_transient_cube(
-        array.shape, array.values,
-        {.bin_width_s = bin_width_s.value_or(1e-10), .start_s = start_s.value_or(0.0)}, 2e-9, 3, 2);
+        file.array->shape(), [&](std::span<double> values) { file.array->next(values); },
+        {.bin_width_s = file.bin_width_s.value_or(1e-10), .start_s = file.start_s.value_or(0.0)}, 2e-9, 3, 2);
     for (int column = 0; column < scene.columns(); ++column) {
       if (scene.returns_signal(column, 0)) {
         (void)scene.cube()->first_return(column, 0, 2e-9);

@@ -12,6 +12,7 @@
 #include "dtof/core/physical_constants.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/npy.hpp"
+#include "tests/container/zip_writer.hpp"
 #include "tests/io/io_test_support.hpp"
 #include "tests/run_shell.hpp"
 
@@ -90,6 +91,29 @@ TEST_F(CubeCommand, ACubeIsAScene) {
   // Another start is another distance.
   ASSERT_EQ(dtof(kSmallFrame + "--cube cube.npz --cube-start -5e-9 --out earlier").exit_code, 0);
   EXPECT_NE(contents(path("keys/histogram.csv")), contents(path("earlier/histogram.csv")));
+}
+
+TEST_F(CubeCommand, ACubeInItsFileIsTheHeldOne) {
+  write_cube("a.npy", {1, 2, 400}, two_returns());
+  const std::string array = contents(path("a.npy"));
+  const std::string width = test::npy_begin("<f8", "()") + test::bytes_of(1e-10);
+  const test::ZipPart key = test::stored_part("bin_width_s.npy", width);
+  test::ZipPart stored = test::stored_part("cube.npy", array);
+  test::write_zip(path("stored.npz"), {stored, key}, true);
+  test::write_zip(path("deflated.npz"), {test::deflated_part("cube.npy", array), key}, false);
+  const Outcome piped =
+      run_shell(fmt::format("cd '{}' && cat a.npy | {} {}--cube /dev/stdin --cube-bin-width 1e-10 --out held",
+                            path("").string(), DTOF_PROGRAM, kSmallFrame));
+  ASSERT_EQ(piped.exit_code, 0) << piped.output;
+  for (const char* const file : {"a.npy --cube-bin-width 1e-10", "stored.npz", "deflated.npz"}) {
+    ASSERT_EQ(dtof(fmt::format("{}--cube {} --out out", kSmallFrame, file)).exit_code, 0) << file;
+    EXPECT_EQ(contents(path("out/histogram.csv")), contents(path("held/histogram.csv"))) << file;
+  }
+  stored.crc ^= 1U;
+  test::write_zip(path("wrong.npz"), {stored, key}, false);
+  EXPECT_EQ(dtof(kSmallFrame + "--cube wrong.npz --out wrong").output,
+            "dtof: error: wrong.npz:cube: damaged: the checksum (CRC-32) is not that of the archive\n");
+  EXPECT_FALSE(std::filesystem::exists(path("wrong")));
 }
 
 TEST_F(CubeCommand, PixelsWithoutLightAreNotJudged) {

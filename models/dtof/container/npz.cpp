@@ -7,87 +7,26 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <new>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "dtof/core/error.hpp"
 #include "dtof/io/input_file.hpp"
+#include "dtof/io/npy_reader.hpp"
 
 namespace dtof {
 namespace {
 
 constexpr std::string_view kArrayEnding = ".npy";
-/// An archive of tiny members would take long to list.
-constexpr std::size_t kMostMembers = 65536;
-
-[[noreturn]] void fail_damaged(const std::filesystem::path& path) {
-  fail_in_file(path, "the NPZ archive is damaged or encrypted");
-}
-
-/// The members of an archive in memory, one behind the other.
-class ZipReader {
- public:
-  ZipReader(std::filesystem::path path, std::string_view contents)
-      : path_(std::move(path)), archive_(archive_read_new(), archive_read_free) {
-    if (!archive_) {
-      throw std::bad_alloc();
-    }
-    if (archive_read_support_format_zip(archive_.get()) != ARCHIVE_OK ||
-        archive_read_open_memory(archive_.get(), contents.data(), contents.size()) != ARCHIVE_OK) {
-      fail_damaged(path_);
-    }
-  }
-
-  /// Name of the next member; none behind the last.
-  std::optional<std::string> next() {
-    archive_entry* entry = nullptr;
-    const int code = archive_read_next_header(archive_.get(), &entry);
-    if (code == ARCHIVE_EOF) {
-      return std::nullopt;
-    }
-    const char* const name = code == ARCHIVE_OK ? archive_entry_pathname(entry) : nullptr;
-    if (name == nullptr || ++members_ > kMostMembers) {
-      fail_damaged(path_);
-    }
-    return name;
-  }
-
-  /// Contents of the member that `next` has named.
-  std::string contents() {
-    std::string bytes;
-    std::array<char, std::size_t{1} << 16U> chunk{};
-    for (;;) {
-      const la_ssize_t count = archive_read_data(archive_.get(), chunk.data(), chunk.size());
-      if (count < 0) {
-        fail_damaged(path_);
-      }
-      if (count == 0) {
-        return bytes;
-      }
-      bytes.append(chunk.data(), static_cast<std::size_t>(count));
-      if (bytes.size() > kLongestFile) {
-        fail_in_file(path_, fmt::format("an array has more than {} MiB", kLongestFile >> 20U));
-      }
-    }
-  }
-
- private:
-  std::filesystem::path path_;
-  std::unique_ptr<archive, int (*)(archive*)> archive_;
-  std::size_t members_ = 0;
-};
-
 std::string_view without_ending(std::string_view name) {
   return name.ends_with(kArrayEnding) ? name.substr(0, name.size() - kArrayEnding.size()) : name;
 }
 
 std::unique_ptr<archive_entry, void (*)(archive_entry*)> make_entry(const std::string& name,
-                                                                    std::size_t size) {
+                                                                    std::uint64_t size) {
   std::unique_ptr<archive_entry, void (*)(archive_entry*)> entry(archive_entry_new(), archive_entry_free);
   if (!entry) {
     throw std::bad_alloc();
@@ -108,32 +47,56 @@ bool is_zip(std::string_view contents) {
   return contents.starts_with("PK\x03\x04") || contents.starts_with("PK\x05\x06");
 }
 
-std::vector<std::string> npz_names(const std::filesystem::path& path, std::string_view contents) {
-  ZipReader reader(path, contents);
-  std::vector<std::string> names;
-  while (const auto name = reader.next()) {
-    names.emplace_back(without_ending(*name));
+NpzArchive::NpzArchive(std::filesystem::path path)
+    : NpzArchive(path, std::make_shared<const FileBytes>(path)) {}
+
+NpzArchive::NpzArchive(std::filesystem::path path, std::string_view contents)
+    : NpzArchive(std::move(path), std::make_shared<const HeldBytes>(contents)) {}
+
+NpzArchive::NpzArchive(std::filesystem::path path, std::shared_ptr<const ByteSource> bytes)
+    : path_(std::move(path)), bytes_(std::move(bytes)), members_(read_zip_directory(path_, *bytes_)) {
+  for (const ZipMember& member : members_) {
+    names_.emplace_back(without_ending(member.name));
   }
-  return names;
+}
+
+bool NpzArchive::has(std::string_view name) const { return std::ranges::find(names_, name) != names_.end(); }
+
+std::size_t NpzArchive::find(const std::string& name) const {
+  if (names_.empty()) {
+    fail_in_file(path_, "the NPZ archive has no array");
+  }
+  if (name.empty()) {
+    if (names_.size() > 1) {
+      fail_in_file(path_, fmt::format("the archive has {} arrays ({}); name one, as {}:{}", names_.size(),
+                                      fmt::join(names_, ", "), path_.string(), names_.front()));
+    }
+    return 0;
+  }
+  const auto found = std::ranges::find(names_, name);
+  if (found == names_.end()) {
+    fail_in_file(path_, fmt::format("the archive has no array '{}', but {}", name, fmt::join(names_, ", ")));
+  }
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
+std::unique_ptr<ArrayReader> NpzArchive::open(const std::string& name) const {
+  const std::size_t index = find(name);
+  const std::filesystem::path label = fmt::format("{}:{}", path_.string(), names_[index]);
+  return std::make_unique<NpyReader>(label, open_zip_member(label, bytes_, members_[index]));
+}
+
+NpyArray NpzArchive::read(const std::string& name) const {
+  const std::unique_ptr<ArrayReader> array = open(name);
+  return read_whole(fmt::format("{}:{}", path_.string(), names_[find(name)]), *array);
+}
+
+std::vector<std::string> npz_names(const std::filesystem::path& path, std::string_view contents) {
+  return NpzArchive(path, contents).names();
 }
 
 NpyArray parse_npz(const std::filesystem::path& path, std::string_view contents, const std::string& name) {
-  const std::vector<std::string> names = npz_names(path, contents);
-  if (names.empty()) {
-    fail_in_file(path, "the NPZ archive has no array");
-  }
-  if (name.empty() && names.size() > 1) {
-    fail_in_file(path, fmt::format("the archive has {} arrays ({}); name one, as {}:{}", names.size(),
-                                   fmt::join(names, ", "), path.string(), names.front()));
-  }
-  const std::string& wanted = name.empty() ? names.front() : name;
-  ZipReader reader(path, contents);
-  while (const auto member = reader.next()) {
-    if (without_ending(*member) == wanted) {
-      return parse_npy(path, reader.contents());
-    }
-  }
-  fail_in_file(path, fmt::format("the archive has no array '{}', but {}", wanted, fmt::join(names, ", ")));
+  return NpzArchive(path, contents).read(name);
 }
 
 NpzWriter::NpzWriter(const std::filesystem::path& path)
@@ -180,15 +143,29 @@ void NpzWriter::add_bytes(const std::string& name, std::string_view dtype, std::
   if (std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()) != count) {
     throw std::logic_error("NpzWriter: shape and number of values disagree");
   }
-  const std::string header = npy_header(dtype, shape);
-  const auto entry = make_entry(name, header.size() + bytes.size());
+  begin_member(name, npy_header(dtype, shape), bytes.size());
+  write_member(bytes);
+}
+
+void NpzWriter::add(const std::string& name, ArrayReader& array) {
+  begin_member(name, npy_header("<f8", array.shape()), std::uint64_t{array.count()} * sizeof(double));
+  for_each_piece(array, [&](std::span<const double> values) {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): the bytes of numbers
+    write_member({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+  });
+}
+
+void NpzWriter::begin_member(const std::string& name, const std::string& header, std::uint64_t bytes) {
+  const auto entry = make_entry(name, header.size() + bytes);
   check(archive_write_header(archive_.get(), entry.get()));
-  for (std::string_view rest : {std::string_view(header), bytes}) {
-    while (!rest.empty()) {
-      const la_ssize_t written = archive_write_data(archive_.get(), rest.data(), rest.size());
-      check(written);
-      rest.remove_prefix(static_cast<std::size_t>(written));
-    }
+  write_member(header);
+}
+
+void NpzWriter::write_member(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const la_ssize_t written = archive_write_data(archive_.get(), bytes.data(), bytes.size());
+    check(written);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -21,11 +22,13 @@
 #include "dtof/convert/converted_map.hpp"
 #include "dtof/convert/histograms.hpp"
 #include "dtof/core/error.hpp"
+#include "dtof/io/array_reader.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/byte_stream.hpp"
 #include "dtof/io/npy.hpp"
 #include "dtof/recording/photon_hdf5_cube.hpp"
 #include "dtof/recording/picoquant.hpp"
+#include "dtof/recording/recorded_array.hpp"
 #include "dtof/recording/stream_csv.hpp"
 
 namespace dtof {
@@ -102,23 +105,23 @@ std::string convert_map(const ConversionOptions& options, const ConversionInput&
   }
 }
 
-/// An array as it is, of whatever axes.
+/// An array as it is, of whatever axes, piece by piece.
 std::string convert_array(const ConversionOptions& options, const ConversionInput& input) {
-  const NpyArray array = open_array(options.recording, input.file);
+  const std::unique_ptr<ArrayReader> array = open_array_reader(options.recording, input.file);
   if (output_kind(options.out) == OutputKind::kNpy) {
-    write_npy(options.out, array.shape, array.values);
+    write_npy(options.out, *array);
   } else {
     const std::string named = parse_array_address(options.recording.file).array;
     const std::string name = named.substr(named.find_last_of('/') + 1);
     NpzWriter writer(options.out);
-    writer.add(name.empty() ? "array" : name, array.shape, std::span(array.values));
+    writer.add(name.empty() ? "array" : name, *array);
     if (options.recording.bin_width_s) {
       const double width = *options.recording.bin_width_s * 1e12;
       writer.add(std::string(kBinWidthName), std::vector<std::size_t>{}, std::span(&width, 1));
     }
     writer.commit();
   }
-  return fmt::format("an array of shape ({})", fmt::join(array.shape, ", "));
+  return fmt::format("an array of shape ({})", fmt::join(array->shape(), ", "));
 }
 
 /// Histograms (rows, columns, bins).

@@ -18,6 +18,7 @@
 #include "dtof/io/byte_stream.hpp"
 #include "dtof/io/input_file.hpp"
 #include "dtof/io/result_csv.hpp"
+#include "dtof/recording/recorded_array.hpp"
 
 namespace dtof {
 namespace {
@@ -93,11 +94,11 @@ std::optional<std::vector<float>> companion(const ConversionOptions& options, co
     return std::nullopt;
   }
   const std::string wanted = array.substr(0, array.size() - kDepth.size()) + field;
-  const std::vector<std::string> names = npz_names(path, input.file.contents);
-  if (std::ranges::find(names, wanted) == names.end()) {
+  const NpzArchive archive = open_archive(options.recording, input.file);
+  if (!archive.has(wanted)) {
     return std::nullopt;
   }
-  return field_of_array(path, parse_npz(path, input.file.contents, wanted), depth);
+  return field_of_array(path, archive.read(wanted), depth);
 }
 
 }  // namespace

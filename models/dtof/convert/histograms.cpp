@@ -80,6 +80,9 @@ CountedHistograms count_histograms(RecordedData measurement, const RecordingOpti
   if (auto* const cube = std::get_if<HistogramCube>(&measurement.data)) {
     return {.cube = std::move(*cube)};
   }
+  if (auto* const file = std::get_if<HistogramFile>(&measurement.data)) {
+    return {.cube = held_cube(std::move(*file))};
+  }
   if (const auto* const photons = std::get_if<PhotonTimes>(&measurement.data)) {
     return of_times(*photons, options);
   }

@@ -10,6 +10,10 @@
 
 namespace dtof {
 
+/// Most elements of an array that is held: four histogram cubes of 200 x 160 pixels and 1024 bins; as doubles
+/// 1 GiB.
+inline constexpr std::size_t kMostHeldElements = std::size_t{1} << 27U;
+
 /// An array in C order, converted to double.
 struct NpyArray {
   std::vector<std::size_t> shape;  ///< empty: a single number

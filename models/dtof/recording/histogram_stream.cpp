@@ -13,37 +13,27 @@
 #include "dtof/core/error.hpp"
 
 namespace dtof {
-namespace {
-
-/// Without a budget every count becomes a photon in memory.
-void check_photon_numbers(const HistogramCube& cube) {
-  for (int row = 0; row < cube.rows; ++row) {
-    for (int column = 0; column < cube.columns; ++column) {
-      const std::span<const double> counts = cube.pixel(column, row);
-      const double photons = std::accumulate(counts.begin(), counts.end(), 0.0);
-      if (photons > kLargestPhotonNumber) {
-        cube.fail(
-            fmt::format("column {}, row {}: {:.0f} photons are more than the {:g} that a pixel can "
-                        "have in a frame; give a photon budget (--photons)",
-                        column, row, photons, kLargestPhotonNumber));
-      }
-    }
-  }
-}
-
-}  // namespace
-
 void HistogramCube::fail(const std::string& reason) const {
   throw InputError(fmt::format("{}: {}", name, reason));
 }
 
-std::string HistogramCube::place(std::size_t index) const {
-  const auto pixel = index / static_cast<std::size_t>(bins);
-  return fmt::format("column {}, row {}, bin {}", pixel % static_cast<std::size_t>(columns),
-                     pixel / static_cast<std::size_t>(columns), index % static_cast<std::size_t>(bins));
+void HistogramCube::validate() const {
+  validate_axes();
+  const std::size_t pixels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  if (counts.size() != pixels * static_cast<std::size_t>(bins)) {
+    fail(fmt::format("{} counts for {} x {} pixels of {} bins", counts.size(), columns, rows, bins));
+  }
+  if (!true_distance.empty() && true_distance.size() != pixels) {
+    fail(fmt::format("{} true distances for {} pixels", true_distance.size(), pixels));
+  }
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      validate_counts(column, row, pixel(column, row));
+    }
+  }
 }
 
-void HistogramCube::validate() const {
+void HistogramCube::validate_axes() const {
   if (columns < 1 || rows < 1 || bins < 1) {
     fail(fmt::format("{} x {} pixels of {} bins: each must be 1 or more", columns, rows, bins));
   }
@@ -53,39 +43,73 @@ void HistogramCube::validate() const {
   if (!std::isfinite(offset)) {
     fail(fmt::format("offset is {}, must be a finite number of seconds", offset));
   }
-  const std::size_t pixels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  if (counts.size() != pixels * static_cast<std::size_t>(bins)) {
-    fail(fmt::format("{} counts for {} x {} pixels of {} bins", counts.size(), columns, rows, bins));
-  }
-  if (!true_distance.empty() && true_distance.size() != pixels) {
-    fail(fmt::format("{} true distances for {} pixels", true_distance.size(), pixels));
-  }
+}
+
+void HistogramCube::validate_counts(int column, int row, std::span<const double> pixel_counts) const {
   constexpr double kLargestCount = 0x1.0p53;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (!(counts[i] >= 0.0 && counts[i] <= kLargestCount)) {
-      fail(fmt::format("{}: count {} is not in 0..2^53", place(i), counts[i]));
+  const auto illegal = std::ranges::find_if(
+      pixel_counts, [](double count) { return !(count >= 0.0 && count <= kLargestCount); });
+  if (illegal != pixel_counts.end()) {
+    fail(fmt::format("column {}, row {}, bin {}: count {} is not in 0..2^53", column, row,
+                     illegal - pixel_counts.begin(), *illegal));
+  }
+}
+
+CountCheck::CountCheck(const HistogramCube& cube, const Resampling& resampling)
+    : cube_(cube), budget_(resampling.photon_budget.has_value()) {}
+
+void CountCheck::add(int column, int row, std::span<const double> counts) {
+  cube_.validate_counts(column, row, counts);
+  if (budget_) {
+    return;
+  }
+  // Without a budget every count becomes a photon in memory.
+  const double photons = std::accumulate(counts.begin(), counts.end(), 0.0);
+  if (photons > kLargestPhotonNumber && too_many_.empty()) {
+    too_many_ = fmt::format(
+        "column {}, row {}: {:.0f} photons are more than the {:g} that a pixel can have in a frame; give a "
+        "photon budget (--photons)",
+        column, row, photons, kLargestPhotonNumber);
+  }
+  const auto fraction = std::ranges::find_if(counts, [](double count) { return count != std::floor(count); });
+  if (fraction != counts.end() && fraction_.empty()) {
+    fraction_ =
+        fmt::format("column {}, row {}, bin {}: count {} is not an integer; give a photon budget (--photons)",
+                    column, row, fraction - counts.begin(), *fraction);
+  }
+}
+
+void CountCheck::finish() const {
+  for (const std::string* const reason : {&too_many_, &fraction_}) {
+    if (!reason->empty()) {
+      cube_.fail(*reason);
     }
   }
 }
 
 HistogramStream::HistogramStream(HistogramCube cube, const Resampling& resampling)
-    : ResampledStream(cube.columns, cube.rows, resampling), cube_(std::move(cube)) {
+    : HistogramStream(std::move(cube), resampling, Unchecked{}) {
   cube_.validate();
-  if (!resampling.photon_budget) {
-    check_photon_numbers(cube_);
-    const auto fraction = std::find_if(cube_.counts.begin(), cube_.counts.end(),
-                                       [](double count) { return count != std::floor(count); });
-    if (fraction != cube_.counts.end()) {
-      cube_.fail(fmt::format("{}: count {} is not an integer; give a photon budget (--photons)",
-                             cube_.place(static_cast<std::size_t>(fraction - cube_.counts.begin())),
-                             *fraction));
+  CountCheck check(cube_, resampling);
+  for (int row = 0; row < cube_.rows; ++row) {
+    for (int column = 0; column < cube_.columns; ++column) {
+      check.add(column, row, cube_.pixel(column, row));
     }
   }
+  check.finish();
+}
+
+HistogramStream::HistogramStream(HistogramCube cube, const Resampling& resampling, Unchecked /*unchecked*/)
+    : ResampledStream(cube.columns, cube.rows, resampling), cube_(std::move(cube)) {}
+
+std::span<const double> HistogramStream::counts(int column, int row, std::vector<double>& /*room*/) const {
+  return cube_.pixel(column, row);
 }
 
 void HistogramStream::draw_times(int column, int row, CounterRandom& random,
                                  std::vector<double>& times) const {
-  const std::span<const double> counts = cube_.pixel(column, row);
+  std::vector<double> room;
+  const std::span<const double> counts = this->counts(column, row, room);
   const auto time_in_bin = [&](std::size_t bin) {
     return cube_.offset + (static_cast<double>(bin) + random.uniform()) * cube_.bin_width;
   };
@@ -115,19 +139,19 @@ void HistogramStream::draw_times(int column, int row, CounterRandom& random,
   }
 }
 
-HistogramCube histogram_cube(const NpyArray& array, double bin_width, double offset,
-                             const std::string& name) {
+HistogramCube cube_of_shape(std::span<const std::size_t> shape, double bin_width, double offset,
+                            const std::string& name) {
   HistogramCube cube;
   cube.name = name;
-  if (array.shape.empty()) {
+  if (shape.empty()) {
     cube.fail("the array is a single number, its last axis must be the bins");
   }
   constexpr std::size_t kLargest = std::numeric_limits<int>::max();
-  const std::size_t bins = array.shape.back();
-  const std::size_t columns = array.shape.size() < 2 ? 1 : array.shape[array.shape.size() - 2];
+  const std::size_t bins = shape.back();
+  const std::size_t columns = shape.size() < 2 ? 1 : shape[shape.size() - 2];
   std::size_t rows = 1;
-  for (std::size_t axis = 0; axis + 2 < array.shape.size(); ++axis) {
-    rows *= array.shape[axis];
+  for (std::size_t axis = 0; axis + 2 < shape.size(); ++axis) {
+    rows *= shape[axis];
   }
   if (bins > kLargest || columns > kLargest || rows > kLargest) {
     cube.fail(fmt::format("{} x {} pixels of {} bins are too many", columns, rows, bins));
@@ -137,6 +161,13 @@ HistogramCube histogram_cube(const NpyArray& array, double bin_width, double off
   cube.bins = static_cast<int>(bins);
   cube.bin_width = bin_width;
   cube.offset = offset;
+  cube.validate_axes();
+  return cube;
+}
+
+HistogramCube histogram_cube(const NpyArray& array, double bin_width, double offset,
+                             const std::string& name) {
+  HistogramCube cube = cube_of_shape(array.shape, bin_width, offset, name);
   cube.counts = array.values;
   cube.validate();
   return cube;

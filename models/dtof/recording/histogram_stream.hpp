@@ -29,10 +29,30 @@ struct HistogramCube {
   }
   /// Throws InputError if sizes disagree, or a count is negative, not finite or above 2^53.
   void validate() const;
+  /// Throws InputError if columns, rows, bins, bin width or offset are illegal.
+  void validate_axes() const;
+  /// Throws InputError if a count of this pixel is negative, not finite or above 2^53.
+  void validate_counts(int column, int row, std::span<const double> pixel_counts) const;
   /// Throws InputError "<name>: <reason>".
   [[noreturn]] void fail(const std::string& reason) const;
-  /// Text "column 3, row 0, bin 12" for an index of `counts`.
-  [[nodiscard]] std::string place(std::size_t index) const;
+};
+
+/// Whether counts can become photons in memory, pixel by pixel. Without a photon budget a pixel has at most
+/// kLargestPhotonNumber photons, and counts are integers.
+class CountCheck {
+ public:
+  CountCheck(const HistogramCube& cube, const Resampling& resampling);
+
+  /// Throws InputError for an illegal count.
+  void add(int column, int row, std::span<const double> counts);
+  /// Throws InputError for the first pixel with too many photons, else for the first fraction.
+  void finish() const;
+
+ private:
+  const HistogramCube& cube_;
+  bool budget_;
+  std::string too_many_;
+  std::string fraction_;
 };
 
 /// TDC stream of one frame from a histogram cube (recording/resampling.hpp). A photon's time is uniform
@@ -48,11 +68,22 @@ class HistogramStream : public ResampledStream {
 
   [[nodiscard]] const HistogramCube& cube() const { return cube_; }
 
+ protected:
+  struct Unchecked {};
+  /// Without a check of the counts.
+  HistogramStream(HistogramCube cube, const Resampling& resampling, Unchecked unchecked);
+
  private:
   void draw_times(int column, int row, CounterRandom& random, std::vector<double>& times) const override;
+  /// Counts of a pixel, in the cube or in `room`.
+  [[nodiscard]] virtual std::span<const double> counts(int column, int row, std::vector<double>& room) const;
 
   HistogramCube cube_;
 };
+
+/// A cube without counts, of the shape of an array: as histogram_cube.
+HistogramCube cube_of_shape(std::span<const std::size_t> shape, double bin_width, double offset,
+                            const std::string& name);
 
 /// Makes a cube from an array whose last axis is the bins: [bins], [columns, bins] or [..., rows, columns,
 /// bins] (leading axes are stacked as rows). Widths in s. Throws InputError for a scalar, or for counts that

@@ -19,12 +19,12 @@
 #include "dtof/core/error.hpp"
 #include "dtof/io/byte_stream.hpp"
 #include "dtof/io/input_file.hpp"
-#include "dtof/io/npy.hpp"
 #include "dtof/recording/histogram_stream.hpp"
 #include "dtof/recording/line_reader.hpp"
 #include "dtof/recording/photon_hdf5_cube.hpp"
 #include "dtof/recording/photon_times_mat.hpp"
 #include "dtof/recording/picoquant.hpp"
+#include "dtof/recording/recorded_array.hpp"
 #include "dtof/recording/stream_csv.hpp"
 #include "dtof/recording/tmf8820_json.hpp"
 #include "dtof/recording/tmf8829_json.hpp"
@@ -182,12 +182,6 @@ RecordedData from_times(PhotonTimes photons) {
   return {.description = std::move(description), .data = std::move(photons)};
 }
 
-/// The variable of a MATLAB file: what the file's name names, else the option.
-std::string variable_of(const RecordingOptions& options) {
-  const std::string named = parse_array_address(options.file).array;
-  return named.empty() ? options.variable : named.substr(named.starts_with('/') ? 1 : 0);
-}
-
 /// Cells of MATLAB 7.3 as photon times.
 PhotonTimes times_of_cells(const std::filesystem::path& path, const Hdf5Cells& cells,
                            const std::string& name) {
@@ -207,31 +201,23 @@ PhotonTimes times_of_cells(const std::filesystem::path& path, const Hdf5Cells& c
   return photons;
 }
 
-/// Width of the bins of an array: as it is given, else as an archive of `dtof convert` says.
-double bin_width_of(const RecordingOptions& options, const RecordingFile& file) {
-  if (options.bin_width_s) {
-    return *options.bin_width_s;
-  }
-  if (file.format == "npz") {
-    const std::filesystem::path path = parse_array_address(options.file).file;
-    const std::vector<std::string> names = npz_names(path, file.contents);
-    if (std::ranges::find(names, kBinWidthName) != names.end()) {
-      return parse_npz(path, file.contents, std::string(kBinWidthName)).values.front() * 1e-12;
+/// Histograms of an array; those of a file that is read in place stay there if they can be read at any place.
+RecordedData open_histograms(const RecordingOptions& options, const RecordingFile& file) {
+  const double bin_width = bin_width_of(options, file);
+  HistogramFile histograms =
+      histogram_file(open_array_reader(options, file), bin_width, 0.0, array_label(options, file));
+  RecordedData data{.description = "histogram cube", .data = {}};
+  if (is_read_in_place(file) && histograms.counts->any_place()) {
+    data.data = std::move(histograms);
+  } else {
+    if (histograms.counts->count() > kMostHeldElements) {
+      histograms.cube.fail(
+          "more than 2^27 counts that are deflated or in Fortran order; in C order, in an NPY file or stored "
+          "in an NPZ archive, they have no limit (dtof convert writes deflated ones as NPY)");
     }
+    data.data = held_cube(std::move(histograms));
   }
-  throw InputError(fmt::format("{}: {} needs --bin-width", options.file,
-                               file.format == "npy" ? "an NPY histogram" : "a histogram"));
-}
-
-/// What an archive of `dtof convert` holds beside its bin width and the like; empty for another archive.
-std::string own_array(const std::filesystem::path& path, std::string_view contents) {
-  const std::vector<std::string> names = npz_names(path, contents);
-  for (const char* const name : {"histograms", "depth_m"}) {
-    if (std::ranges::find(names, name) != names.end()) {
-      return name;
-    }
-  }
-  return "";
+  return data;
 }
 
 }  // namespace
@@ -260,6 +246,11 @@ RecordingFile read_recording(const RecordingOptions& options) {
     file.format = std::move(format);
     return file;
   }
+  if (std::string format = format_read_in_place(path);
+      !format.empty() && (options.format == "auto" || options.format == format)) {
+    file.format = std::move(format);
+    return file;
+  }
   std::string packed = read_file(path);
   // A frame as text is longer than what other files may unpack to.
   const bool stream = options.format == "csv" || name_ends(path.string(), ".csv.gz");
@@ -270,25 +261,6 @@ RecordingFile read_recording(const RecordingOptions& options) {
   }
   file.format = options.format != "auto" ? options.format : find_format(path.string(), file.contents);
   return file;
-}
-
-NpyArray open_array(const RecordingOptions& options, const RecordingFile& file) {
-  const auto [path, array] = parse_array_address(options.file);
-  if (file.format == "npy") {
-    return parse_npy(path, file.contents);
-  }
-  if (file.format == "npz") {
-    return parse_npz(path, file.contents, array.empty() ? own_array(path, file.contents) : array);
-  }
-  if (file.format == "mat") {
-    return parse_mat_array(path, file.contents, variable_of(options));
-  }
-  return read_hdf5_array(path, array);
-}
-
-std::string array_label(const RecordingOptions& options, const RecordingFile& file) {
-  const bool unnamed = file.format == "mat" && parse_array_address(options.file).array.empty();
-  return unnamed ? fmt::format("{}:{}", options.file, options.variable) : options.file;
 }
 
 RecordedData open_recorded_data(const RecordingOptions& options, const RecordingFile& file) {
@@ -326,9 +298,7 @@ RecordedData open_recorded_data(const RecordingOptions& options, const Recording
     const std::string name = variable_of(options);
     return from_times(times_of_cells(path, read_hdf5_cells(path, name), name));
   }
-  const double bin_width = bin_width_of(options, file);
-  return {.description = "histogram cube",
-          .data = histogram_cube(open_array(options, file), bin_width, 0.0, array_label(options, file))};
+  return open_histograms(options, file);
 }
 
 Recording open_recording(const RecordingOptions& options, RecordingFile file) {
@@ -344,6 +314,8 @@ Recording open_recording(const RecordingOptions& options, RecordingFile file) {
     recording.true_distance = cube->true_distance;
     forget_truth_without_photons(*cube, recording.true_distance);
     recording.source = std::make_unique<HistogramStream>(std::move(*cube), resampling);
+  } else if (auto* const histograms = std::get_if<HistogramFile>(&measurement.data)) {
+    recording.source = std::make_unique<HistogramFileStream>(std::move(*histograms), resampling);
   } else if (auto* const photons = std::get_if<PhotonTimes>(&measurement.data)) {
     recording.source = std::make_unique<PhotonTimesStream>(std::move(*photons), options.tick_s, resampling);
   } else {

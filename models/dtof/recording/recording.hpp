@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "dtof/core/detection.hpp"
-#include "dtof/io/npy.hpp"
+#include "dtof/recording/histogram_file.hpp"
 #include "dtof/recording/histogram_stream.hpp"
 #include "dtof/recording/photon_times_mat.hpp"
 #include "dtof/recording/resampling.hpp"
@@ -44,16 +44,17 @@ struct RecordingOptions {
 
 /// Contents of a file, which is read once, so it may be a pipe.
 struct RecordingFile {
-  /// Contents, unpacked if they were gzip; empty for what is read piece by piece: hdf5, photon-hdf5,
-  /// picoquant, and logs of lines unless their format was found in a pipe.
+  /// Contents, unpacked if they were gzip; empty for what is read piece by piece: npy and npz of regular
+  /// files, hdf5, photon-hdf5, picoquant, and logs of lines unless their format was found in a pipe.
   std::string contents;
   std::string format;  ///< one of kRecordingFormats
 };
 
-/// Contents of a file, before photons are drawn from them.
+/// Contents of a file, before photons are drawn from them. Histograms that can be read at any place stay in
+/// their file.
 struct RecordedData {
   std::string description;
-  std::variant<HistogramCube, PhotonTimes, RecordedStream> data;
+  std::variant<HistogramCube, HistogramFile, PhotonTimes, RecordedStream> data;
 };
 
 /// A recorded frame with the true distances that the file holds.
@@ -70,15 +71,6 @@ RecordingFile read_recording(const RecordingOptions& options);
 
 /// Parses a file's contents. Throws InputError that names the file (and line) and the error.
 RecordedData open_recorded_data(const RecordingOptions& options, const RecordingFile& file);
-
-/// Reads the array in a file of format npy, npz, mat or hdf5, unchanged. If `options.file` names no array,
-/// the array is "histograms" or "depth_m" (the names that `dtof convert` writes), else the archive's only
-/// one; in a MATLAB file it is `options.variable`. Throws InputError.
-NpyArray open_array(const RecordingOptions& options, const RecordingFile& file);
-
-/// `options.file` with the name of the variable behind a colon if it is a MATLAB file (of version 5) whose
-/// name has none; for error messages.
-std::string array_label(const RecordingOptions& options, const RecordingFile& file);
 
 /// Makes the frame of a file and releases its contents. Throws InputError that names the file (and line) and
 /// the error.

@@ -16,6 +16,8 @@
 #include "dtof/container/hdf5_array.hpp"
 #include "dtof/container/npz.hpp"
 #include "dtof/io/input_file.hpp"
+#include "dtof/io/npy_reader.hpp"
+#include "dtof/recording/recorded_array.hpp"
 #include "dtof/recording/recording.hpp"
 
 namespace dtof {
@@ -48,21 +50,23 @@ std::string only_cube(const std::filesystem::path& path, const std::vector<std::
 /// Reads the cube `name` (empty: the only one) and the time axis beside it.
 TransientFile read_members(const std::filesystem::path& path, std::string name,
                            const std::vector<std::string>& names,
-                           const std::function<NpyArray(const std::string&)>& read) {
+                           const std::function<std::unique_ptr<ArrayReader>(const std::string&)>& open) {
   if (name.empty()) {
     name = only_cube(path, names);
   }
-  TransientFile file{.array = read(name), .bin_width_s = std::nullopt, .start_s = std::nullopt};
+  TransientFile file{.array = open(name), .bin_width_s = std::nullopt, .start_s = std::nullopt};
   const auto number = [&](std::string_view member) -> std::optional<double> {
     const std::string beside = fmt::format("{}{}", group_of(name), member);
     if (std::ranges::find(names, beside) == names.end()) {
       return std::nullopt;
     }
-    const NpyArray array = read(beside);
-    if (array.values.size() != 1) {
-      fail_in_file(path, fmt::format("{} has {} numbers instead of one", beside, array.values.size()));
+    const std::unique_ptr<ArrayReader> array = open(beside);
+    if (array->count() != 1) {
+      fail_in_file(path, fmt::format("{} has {} numbers instead of one", beside, array->count()));
     }
-    return array.values.front();
+    double value = 0.0;
+    array->next({&value, 1});
+    return value;
   };
   file.bin_width_s = number(kTransientBinWidthName);
   if (!file.bin_width_s) {
@@ -83,16 +87,31 @@ TransientFile read_transient_file(const std::string& name) {
   if (is_hdf5(path)) {
     // A name may lack the slash in front.
     const std::string wanted = array.empty() || array.starts_with('/') ? array : "/" + array;
-    return read_members(path, wanted, hdf5_names(path),
-                        [&](const std::string& member) { return read_hdf5_array(path, member); });
+    return read_members(path, wanted, hdf5_names(path), [&](const std::string& member) {
+      return std::make_unique<HeldArray>(read_hdf5_array(path, member));
+    });
   }
+  const std::string format = format_read_in_place(path);
+  if (format == "npy") {
+    return {.array = open_npy(path), .bin_width_s = std::nullopt, .start_s = std::nullopt};
+  }
+  if (format == "npz") {
+    const NpzArchive archive(path);
+    return read_members(path, array, archive.names(),
+                        [&](const std::string& member) { return archive.open(member); });
+  }
+  // A pipe, or gzip: the array is held, since the contents are not.
   const std::string contents = unpack_gzip(path, read_file(path), kLongestFile);
   if (is_zip(contents)) {
-    return read_members(path, array, npz_names(path, contents),
-                        [&](const std::string& member) { return parse_npz(path, contents, member); });
+    const NpzArchive archive(path, contents);
+    return read_members(path, array, archive.names(), [&](const std::string& member) {
+      return std::make_unique<HeldArray>(archive.read(member));
+    });
   }
   if (contents.starts_with("\x93NUMPY")) {
-    return {.array = parse_npy(path, contents), .bin_width_s = std::nullopt, .start_s = std::nullopt};
+    return {.array = std::make_unique<HeldArray>(parse_npy(path, contents)),
+            .bin_width_s = std::nullopt,
+            .start_s = std::nullopt};
   }
   fail_in_file(path, "a transient cube is an NPY, NPZ or HDF5 file");
 }

@@ -58,6 +58,44 @@ int nearest(int index, int count, int source_count) {
   return static_cast<int>((2 * std::int64_t{index} + 1) * source_count / (2 * std::int64_t{count}));
 }
 
+/// The array's pixels that each source pixel stands for, along one axis.
+std::vector<std::vector<int>> nearest_to_each(int count, int source_count) {
+  std::vector<std::vector<int>> pixels(static_cast<std::size_t>(source_count));
+  for (int index = 0; index < count; ++index) {
+    pixels[static_cast<std::size_t>(nearest(index, count, source_count))].push_back(index);
+  }
+  return pixels;
+}
+
+/// Sets the light of the array's pixels. All values are checked, also of pixels that the array does not have.
+void take_light(std::span<const std::size_t> shape, const NextValues& next, TransientCube& cube) {
+  constexpr std::size_t kMostBins = std::size_t{1} << 27U;
+  const auto [width, height] = transient_cube_size(shape);
+  if (shape[2] > kMostBins) {
+    throw InputError(
+        fmt::format("shape ({}): a pixel of a transient cube has at most 2^27 bins", fmt::join(shape, ", ")));
+  }
+  const std::vector<std::vector<int>> columns_of = nearest_to_each(cube.columns(), width);
+  const std::vector<std::vector<int>> rows_of = nearest_to_each(cube.rows(), height);
+  std::vector<double> values(shape[2]);
+  for (std::size_t y = 0; y < rows_of.size(); ++y) {
+    for (std::size_t x = 0; x < columns_of.size(); ++x) {
+      next(values);
+      const auto wrong =
+          std::ranges::find_if(values, [](double value) { return !(value >= 0.0) || std::isinf(value); });
+      if (wrong != values.end()) {
+        throw InputError(fmt::format("column {}, row {}, bin {}: {} is not a finite number of at least 0", x,
+                                     y, wrong - values.begin(), *wrong));
+      }
+      for (const int row : rows_of[y]) {
+        for (const int column : columns_of[x]) {
+          cube.set(column, row, values);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::string_view scene_name(Scene scene) {
@@ -202,35 +240,34 @@ TargetMap scene_from_transient_cube(std::span<const std::size_t> shape, std::spa
                                     const TransientScale& scale, double pulse_fwhm_s, int columns, int rows,
                                     double reflectivity) {
   require_reflectivity(reflectivity);
-  const auto [width, height] = transient_cube_size(shape);
-  const std::size_t bins = shape[2];
-  if (values.size() / bins != shape[0] * shape[1] || values.size() % bins != 0) {
+  (void)transient_cube_size(shape);
+  if (values.size() / shape[2] != shape[0] * shape[1] || values.size() % shape[2] != 0) {
     throw InputError(fmt::format("shape ({}): a transient cube of this shape cannot have {} values",
                                  fmt::join(shape, ", "), values.size()));
   }
+  const NextValues next = [&](std::span<double> some) {
+    std::ranges::copy(values.first(some.size()), some.begin());
+    values = values.subspan(some.size());
+  };
+  return scene_from_transient_cube(shape, next, scale, pulse_fwhm_s, columns, rows, reflectivity);
+}
+
+TargetMap scene_from_transient_cube(std::span<const std::size_t> shape, const NextValues& next,
+                                    const TransientScale& scale, double pulse_fwhm_s, int columns, int rows,
+                                    double reflectivity) {
+  require_reflectivity(reflectivity);
+  const auto [width, height] = transient_cube_size(shape);
   TargetMap map(columns, rows);
   auto cube = std::make_shared<TransientCube>(columns, rows, scale);
-  // All values, also of pixels that the array does not have.
-  const auto wrong =
-      std::ranges::find_if(values, [](double value) { return !(value >= 0.0) || std::isinf(value); });
-  if (wrong != values.end()) {
-    const auto index = static_cast<std::size_t>(wrong - values.begin());
-    const std::size_t pixel = index / bins;
-    const auto across = static_cast<std::size_t>(width);
-    throw InputError(fmt::format("column {}, row {}, bin {}: {} is not a finite number of at least 0",
-                                 pixel % across, pixel / across, index % bins, *wrong));
-  }
+  take_light(shape, next, *cube);
   for (int column = 0; column < columns; ++column) {
     for (int row = 0; row < rows; ++row) {
-      const auto x = static_cast<std::size_t>(nearest(column, columns, width));
-      const auto y = static_cast<std::size_t>(nearest(row, rows, height));
-      cube->set(column, row, values.subspan((y * static_cast<std::size_t>(width) + x) * bins, bins));
       const TransientReturn strongest = cube->strongest_return(column, row, pulse_fwhm_s);
       if (strongest.events > 0.0 && !(strongest.distance_m > 0.0)) {
         throw InputError(
             fmt::format("column {}, row {}: the strongest return is at {:g} m, before the laser's shot; see "
                         "the cube's start",
-                        x, y, strongest.distance_m));
+                        nearest(column, columns, width), nearest(row, rows, height), strongest.distance_m));
       }
       map.at(column, row) = {.depth_m = strongest.distance_m, .reflectivity = reflectivity};
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -68,6 +69,15 @@ std::array<int, 2> transient_cube_size(std::span<const std::size_t> shape);
 /// scales the sunlight alone. Throws InputError for another shape, a value that is negative or not finite, an
 /// illegal scale, and a strongest return before the laser's shot.
 TargetMap scene_from_transient_cube(std::span<const std::size_t> shape, std::span<const double> values,
+                                    const TransientScale& scale, double pulse_fwhm_s, int columns, int rows,
+                                    double reflectivity = 1.0);
+
+/// Gives the next values of a cube in C order.
+using NextValues = std::function<void(std::span<double>)>;
+
+/// The same of values that are read once from the first to the last, pixel by pixel, so that the cube may be
+/// larger than memory.
+TargetMap scene_from_transient_cube(std::span<const std::size_t> shape, const NextValues& next,
                                     const TransientScale& scale, double pulse_fwhm_s, int columns, int rows,
                                     double reflectivity = 1.0);
 

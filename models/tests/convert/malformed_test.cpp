@@ -13,6 +13,7 @@
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/npy.hpp"
 #include "tests/container/photon_hdf5_writer.hpp"
+#include "tests/container/zip_writer.hpp"
 #include "tests/io/io_test_support.hpp"
 
 namespace dtof {
@@ -42,6 +43,10 @@ class MalformedTest : public test::IoTest {
                                    const std::vector<double>& values) const {
     write_npy(path("made.npy"), shape, values);
     return contents(path("made.npy"));
+  }
+  [[nodiscard]] std::string zip_of(const test::ZipPart& part) const {
+    test::write_zip(path("made.zip"), {part}, false);
+    return contents(path("made.zip"));
   }
   [[nodiscard]] std::string gzip_of(const std::string& bytes) const {
     write_gzip_file(path("made.gz"), bytes);
@@ -78,6 +83,8 @@ class MalformedTest : public test::IoTest {
     return contents(path("made.h5"));
   }
   [[nodiscard]] std::vector<MalformedFile> table() const;
+  [[nodiscard]] std::vector<MalformedFile> archives() const;
+  void expect_sentence(const MalformedFile& one) const;
 };
 
 std::vector<MalformedFile> MalformedTest::table() const {
@@ -141,21 +148,69 @@ std::vector<MalformedFile> MalformedTest::table() const {
   };
 }
 
+std::vector<MalformedFile> MalformedTest::archives() const {
+  const std::string wrong = "a: damaged: the checksum (CRC-32) is not that of the archive";
+  const std::string array = test::npy_begin("<f8", "(1, 2, 2)") + std::string(32, '\0');
+  const std::string size = std::to_string(array.size());
+  test::ZipPart wrong_byte = test::stored_part("a.npy", array);
+  wrong_byte.begin[array.size() - 2] = '\x40';
+  test::ZipPart late_wrong_byte =
+      test::stored_part("a.npy", test::npy_begin("|u1", "(300000,)") + std::string(300000, '\1'));
+  late_wrong_byte.begin.back() = '\2';
+  test::ZipPart wrong_checksum = test::deflated_part("a.npy", array);
+  wrong_checksum.crc ^= 1U;
+  test::ZipPart cut = test::deflated_part("a.npy", array);
+  cut.begin.resize(cut.begin.size() - 8);
+  test::ZipPart too_long = test::deflated_part("a.npy", array + "behind");
+  too_long.size = array.size();
+  test::ZipPart two_sizes = test::stored_part("a.npy", array);
+  two_sizes.size += 8;
+  test::ZipPart lzma = test::stored_part("a.npy", array);
+  lzma.method = 14;
+  return {
+      {"a wrong byte, stored", "a.npz", zip_of(wrong_byte), "a.npy", wrong},
+      {"a wrong byte, as photons", "a.npz", zip_of(wrong_byte), "a.csv", wrong},
+      {"a wrong byte behind a megabyte of output", "a.npz", zip_of(late_wrong_byte), "a.npz", wrong},
+      {"another checksum, deflated", "a.npz", zip_of(wrong_checksum), "a.npy", wrong},
+      {"deflated data that end early", "a.npz", zip_of(cut), "a.npy",
+       "a: damaged: the packed data end early"},
+      {"an array longer than the archive says", "a.npz", zip_of(too_long), "a.npy",
+       "a: damaged: it unpacks to more than the " + size + " bytes that the archive says"},
+      {"a stored array of two sizes", "a.npz", zip_of(two_sizes), "a.npy",
+       "a: stored, but of " + size + " bytes in the archive and " + std::to_string(two_sizes.size) +
+           " outside"},
+      {"an archive of another packer", "a.npz", zip_of(lzma), "a.npy",
+       "a: packed by ZIP's method 14, which is neither stored nor deflated"},
+  };
+}
+
+void MalformedTest::expect_sentence(const MalformedFile& one) const {
+  SCOPED_TRACE(one.what);
+  const std::filesystem::path file = write(one.name, one.contents);
+  std::string sentence = one.sentence;
+  if (const std::size_t at = sentence.find("FILE"); at != std::string::npos) {
+    sentence.replace(at, 4, file.string());
+  }
+  ConversionOptions options{.out = path("out" + one.out).string(), .recording = {.file = file.string()}};
+  if (one.name == "a.npz" && one.out == "a.csv") {
+    options.recording.bin_width_s = 1e-9;
+  }
+  const std::size_t files = file_count();
+  test::expect_input_error([&] { (void)convert(options, open_conversion(options)); },
+                           file.string() + ":" + sentence);
+  EXPECT_EQ(file_count(), files);
+  std::filesystem::remove(file);
+}
+
 TEST_F(MalformedTest, EachFileHasItsSentenceAndLeavesNoOutput) {
   for (const MalformedFile& one : table()) {
-    SCOPED_TRACE(one.what);
-    const std::filesystem::path file = write(one.name, one.contents);
-    std::string sentence = one.sentence;
-    if (const std::size_t at = sentence.find("FILE"); at != std::string::npos) {
-      sentence.replace(at, 4, file.string());
-    }
-    const ConversionOptions options{.out = path("out" + one.out).string(),
-                                    .recording = {.file = file.string()}};
-    const std::size_t files = file_count();
-    test::expect_input_error([&] { (void)convert(options, open_conversion(options)); },
-                             file.string() + ":" + sentence);
-    EXPECT_EQ(file_count(), files);
-    std::filesystem::remove(file);
+    expect_sentence(one);
+  }
+}
+
+TEST_F(MalformedTest, EachArchiveHasItsSentenceAndLeavesNoOutput) {
+  for (const MalformedFile& one : archives()) {
+    expect_sentence(one);
   }
 }
 

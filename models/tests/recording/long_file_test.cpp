@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files beyond 4 GiB: what is read in pieces is read to its end, what is held is refused before it is held.
-// The files have holes, so that they take no space on the disk.
+// Files beyond 4 GiB: what is read in pieces or where it lies is read to its end, what is held is refused
+// before it is held. The files have holes, so that they take no space on the disk.
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <sys/resource.h>
@@ -10,19 +10,24 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "dtof/container/hdf5_array.hpp"
+#include "dtof/container/npz.hpp"
+#include "dtof/io/array_reader.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/recording/line_reader.hpp"
 #include "dtof/recording/picoquant.hpp"
+#include "dtof/recording/recorded_array.hpp"
 #include "dtof/recording/recording.hpp"
+#include "tests/container/zip_writer.hpp"
 #include "tests/io/io_test_support.hpp"
 
 namespace dtof {
@@ -33,12 +38,37 @@ using ::testing::EndsWith;
 
 constexpr std::uint64_t kFourGiB = std::uint64_t{1} << 32U;
 
-template <typename T>
-std::string bytes_of(T number) {
-  std::string bytes(sizeof number, '\0');
-  std::memcpy(bytes.data(), &number, sizeof number);
-  return bytes;
-}
+using test::bytes_of;
+
+/// Rows of 8 histograms of 1024 numbers of 64 bits: 64 KiB each, beyond 4 GiB together.
+constexpr std::uint64_t kLongRows = (std::uint64_t{1} << 16U) + 3;
+constexpr std::uint64_t kLongBytes = kLongRows << 16U;
+
+std::string long_header() { return test::npy_begin("<f8", fmt::format("({}, 8, 1024)", kLongRows)); }
+
+/// While it lives, this process gets no more than 512 MiB beyond the addresses that it has; a sanitizer needs
+/// more.
+class AddressLimit {
+ public:
+  AddressLimit() {
+    ::getrlimit(RLIMIT_AS, &before_);
+    rlimit now = before_;
+    std::uint64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    now.rlim_cur = pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) + (std::uint64_t{1} << 29U);
+    if (pages != 0 && now.rlim_cur < std::uint64_t{1} << 40U) {
+      ::setrlimit(RLIMIT_AS, &now);
+    }
+  }
+  AddressLimit(const AddressLimit&) = delete;
+  AddressLimit& operator=(const AddressLimit&) = delete;
+  AddressLimit(AddressLimit&&) = delete;
+  AddressLimit& operator=(AddressLimit&&) = delete;
+  ~AddressLimit() { ::setrlimit(RLIMIT_AS, &before_); }
+
+ private:
+  rlimit before_{};
+};
 
 std::string tag(std::string name, std::uint32_t type, std::uint64_t bits) {
   name.resize(32, '\0');
@@ -140,6 +170,23 @@ class LongFileTest : public ::testing::Test {
     EXPECT_EQ(cube.counts.back(), 1.0);
   }
 
+  /// Histograms that are empty but for three photons in the last bin of the last pixel.
+  void expect_photons_at_the_end(std::string_view name) const {
+    const std::uint64_t before = held();
+    const RecordingOptions options{.file = path(name), .bin_width_s = 1e-11};
+    RecordingFile file = read_recording(options);
+    EXPECT_TRUE(file.contents.empty());
+    const Recording recording = open_recording(options, std::move(file));
+    const StreamSource& source = *recording.source;
+    ASSERT_EQ(source.columns(), 8);
+    ASSERT_EQ(source.rows(), static_cast<int>(kLongRows));
+    const auto row = static_cast<int>(kLongRows - 1);
+    EXPECT_EQ(source.column_rows(7, {row, 1}).row(0).size(), 3U);
+    EXPECT_EQ(source.column_rows(6, {row, 1}).row(0).size(), 0U);
+    EXPECT_EQ(source.column_rows(7, {row - 65536, 1}).row(0).size(), 0U);  // 4 GiB before
+    EXPECT_LT(held() - before, std::uint64_t{1} << 26U);
+  }
+
   /// The most memory that this process has held so far, bytes.
   static std::uint64_t held() {
     rusage usage{};
@@ -168,22 +215,69 @@ TEST_F(LongFileTest, AnHt3HeaderMayNameMoreRecordsThan32BitsHold) {
       "PicoQuant, T3, 1 photons, 4294967300 of the 4294967301 records that the header names are missing");
 }
 
-TEST_F(LongFileTest, AnArrayBeyond4GiBIsRefusedBeforeItIsHeld) {
+TEST_F(LongFileTest, WhatIsHeldIsRefusedBeyond4GiBBeforeItIsHeld) {
   const std::uint64_t before = held();
-  const std::string header =
-      "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 600000000), }" + std::string(48, ' ');
-  const std::string npy =
-      "\x93NUMPY" + std::string("\x01\x00", 2) + bytes_of(static_cast<std::uint16_t>(header.size())) + header;
-  for (const auto& [name, begin] : {std::pair<const char*, std::string>{"a.npy", npy},
-                                    {"a.npz", "PK\x03\x04"},
-                                    {"a.csv", "acquisition,column,row,timestamp\n"},
-                                    {"a.mat", "MATLAB 5.0 MAT-file"}}) {
+  for (const auto& [name, begin] :
+       {std::pair<const char*, std::string>{"a.csv", "acquisition,column,row,timestamp\n"},
+        {"a.mat", "MATLAB 5.0 MAT-file"}}) {
     write_with_hole(name, begin, kFourGiB, "end");
     const RecordingOptions options{.file = path(name)};
     test::expect_input_error([&] { (void)read_recording(options); },
                              path(name) + ": more than 4096 MiB to read");
   }
   EXPECT_LT(held() - before, std::uint64_t{1} << 26U);
+}
+
+TEST_F(LongFileTest, AnNpyBeyond4GiBStaysInItsFile) {
+  const AddressLimit limit;
+  write_with_hole("a.npy", long_header(), long_header().size() + kLongBytes - 8, bytes_of(3.0));
+  ASSERT_TRUE(is_sparse("a.npy"));
+  expect_photons_at_the_end("a.npy");
+  // The same photons where the array is that file's last row alone.
+  std::ofstream(path("row.npy"), std::ios::binary)
+      << test::npy_begin("<f8", "(1, 8, 1024)") << std::string(8 * 1024 * 8 - 8, '\0') << bytes_of(3.0);
+  const RecordingOptions options{.file = path("row.npy"), .bin_width_s = 1e-11};
+  EXPECT_EQ(open_recording(options, read_recording(options)).source->column(7).row(0).size(), 3U);
+}
+
+TEST_F(LongFileTest, AStoredArrayBeyond4GiBStaysInItsArchive) {
+  const AddressLimit limit;
+  const std::string width = test::npy_begin("<f8", "()") + bytes_of(10.0);
+  // The second member lies behind 4 GiB; the checksum of the first is checked over all of it.
+  test::write_zip(path("a.npz"),
+                  {test::stored_part("histograms.npy", long_header(), kLongBytes - 8, bytes_of(3.0)),
+                   test::stored_part("bin_width_ps.npy", width)},
+                  true);
+  ASSERT_TRUE(is_sparse("a.npz"));
+  const RecordingOptions options{.file = path("a.npz")};
+  EXPECT_EQ(bin_width_of(options, read_recording(options)), 10.0 * 1e-12);
+  expect_photons_at_the_end("a.npz");
+}
+
+TEST_F(LongFileTest, ADeflatedArrayBeyondMemoryIsReadForwardAlone) {
+  constexpr std::size_t kElements = (std::size_t{1} << 27U) + 1024;
+  {
+    std::string contents = test::npy_begin("|u1", fmt::format("({}, 1, 1024)", kElements / 1024));
+    contents.resize(contents.size() + kElements, '\0');
+    contents.back() = '\7';
+    test::write_zip(path("a.npz"), {test::deflated_part("a.npy", contents)}, false);
+  }
+  const AddressLimit limit;
+  const std::unique_ptr<ArrayReader> array = NpzArchive(path("a.npz")).open("a");
+  std::size_t count = 0;
+  double last = 0.0;
+  for_each_piece(*array, [&](std::span<const double> values) {
+    count += values.size();
+    last = values.back();
+  });
+  EXPECT_EQ(count, kElements);
+  EXPECT_EQ(last, 7.0);
+  const RecordingOptions options{.file = path("a.npz"), .bin_width_s = 1e-11};
+  test::expect_input_error(
+      [&] { (void)open_recording(options, read_recording(options)); },
+      path("a.npz") +
+          ": more than 2^27 counts that are deflated or in Fortran order; in C order, in an NPY file or "
+          "stored in an NPZ archive, they have no limit (dtof convert writes deflated ones as NPY)");
 }
 
 // Text with holes is no text: the lines are those of gzip members that repeat.

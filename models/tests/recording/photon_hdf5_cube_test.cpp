@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dtof/recording/recorded_array.hpp"
 #include "dtof/recording/recording.hpp"
 #include "tests/container/photon_hdf5_writer.hpp"
 #include "tests/io/io_test_support.hpp"

@@ -37,8 +37,8 @@ class TransientFileTest : public test::IoTest {
     H5Fclose(file);
   }
   void expect_cube(const TransientFile& file) const {
-    EXPECT_THAT(file.array.shape, ElementsAre(2U, 3U, 4U));
-    EXPECT_EQ(file.array.values, values_);
+    EXPECT_THAT(file.array->shape(), ElementsAre(2U, 3U, 4U));
+    EXPECT_EQ(read_whole("cube", *file.array).values, values_);
   }
   void refused(const std::string& name, const std::string& sentence) const {
     test::expect_input_error([&] { (void)read_transient_file(path(name).string()); },
