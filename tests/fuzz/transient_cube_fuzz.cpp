@@ -16,7 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (file.array->count() == 0) {
       std::abort();
     }
-    constexpr std::size_t kMostElements = std::size_t{1} << 24U;  // a dataset without chunks may say any number
+    constexpr std::size_t kMostElements = std::size_t{1}
+                                          << 24U;  // a dataset without chunks may say any number
     if (file.array->count() > kMostElements) {
       return 0;
     }

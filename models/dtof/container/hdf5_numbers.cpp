@@ -180,7 +180,7 @@ void Hdf5Numbers::read_block(const Block& block, std::span<double> values) const
     std::ranges::reverse(extents);
   }
   const Hdf5Handle space(H5Dget_space(dataset_), H5Sclose);
-  // Of the same shape as in the file: the library is slow where the shapes differ.
+  // The library is slow where the shapes in memory and in the file differ.
   const Hdf5Handle memory(extents.empty()
                               ? H5Screate(H5S_SCALAR)
                               : H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr),

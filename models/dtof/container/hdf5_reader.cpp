@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <mutex>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -44,8 +47,10 @@ Hdf5Handle with_chunk_cache(const std::filesystem::path& path, hid_t file, const
 class OpenDataset {
  public:
   OpenDataset(const std::filesystem::path& path, std::string name)
-      : name_(std::move(name)),
+      : path_(path),
+        name_(std::move(name)),
         file_(open_hdf5_file(path)),
+        file_bytes_(bytes_of_file()),
         dataset_(with_chunk_cache(path, file_.id(), name_)),
         numbers_(path, dataset_.id(), name_) {}
 
@@ -55,20 +60,26 @@ class OpenDataset {
   /// A request for 0 elements asks for the next window.
   [[nodiscard]] std::size_t answer(const ReadRequest& request, std::span<double> room) const {
     const auto first = static_cast<std::size_t>(request.first);
-    if (request.count == 0) {
-      const std::size_t count = numbers_.window(first, kWindow);
-      numbers_.read(first, room.first(count));
-      return count;
+    const std::size_t count = request.count == 0 ? numbers_.window(first, kWindow) : request.count;
+    numbers_.read(first, room.subspan(request.count == 0 ? 0 : kWindow, count));
+    if (bytes_of_file() < file_bytes_) {  // the library reads zeros behind the end
+      fail_in_file(path_, "the HDF5 file is damaged or ends early");
     }
-    const auto count = static_cast<std::size_t>(request.count);
-    numbers_.read(first, room.subspan(kWindow, count));
     return count;
   }
 
  private:
+  [[nodiscard]] std::uintmax_t bytes_of_file() const {
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(path_, error);
+    return error ? std::numeric_limits<std::uintmax_t>::max() : bytes;  // it may be removed while it is open
+  }
+
   QuietHdf5 quiet_;
+  std::filesystem::path path_;
   std::string name_;
   Hdf5Handle file_;
+  std::uintmax_t file_bytes_;
   Hdf5Handle dataset_;
   Hdf5Numbers numbers_;
 };
