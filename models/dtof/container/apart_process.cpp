@@ -143,4 +143,39 @@ void check_answer(const std::filesystem::path& label, const Receiver& receiver, 
   }
 }
 
+void send_answer(const Sender& sender, const ReadAnswer& answer) {
+  sender.reply(Reply::kAnswer);
+  sender.number(answer.sizes.size());
+  for (const std::size_t size : answer.sizes) {
+    sender.number(size);
+  }
+  sender.number(answer.values.size());
+  sender.bytes(answer.values.data(), answer.values.size() * sizeof(double));
+  sender.number(answer.names.size());
+  for (const std::string& name : answer.names) {
+    sender.text(name);
+  }
+}
+
+ReadAnswer receive_answer(const std::filesystem::path& path, Receiver& receiver) {
+  ReadAnswer answer;
+  std::string refusal;
+  if (receiver.reply() == Reply::kRefusal) {
+    refusal = receiver.text();
+  } else if (receiver.whole) {
+    answer.sizes.resize(receiver.number());
+    for (std::size_t& size : answer.sizes) {
+      size = receiver.number();
+    }
+    answer.values.resize(receiver.number());
+    receiver.bytes(answer.values.data(), answer.values.size() * sizeof(double));
+    answer.names.resize(receiver.number());
+    for (std::string& name : answer.names) {
+      name = receiver.text();
+    }
+  }
+  check_answer(path, receiver, refusal);
+  return answer;
+}
+
 }  // namespace dtof

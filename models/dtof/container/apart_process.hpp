@@ -12,6 +12,8 @@
 #include <string>
 #include <string_view>
 
+#include "dtof/container/read_apart.hpp"
+
 namespace dtof {
 
 /// What a byte of the child says of what follows it.
@@ -74,5 +76,10 @@ class ApartProcess {
 
 /// Throws InputError "<label>: damaged: ..." unless the child has said all, and `refusal` if it refused.
 void check_answer(const std::filesystem::path& label, const Receiver& receiver, const std::string& refusal);
+
+/// Sends a result out of the child.
+void send_answer(const Sender& sender, const ReadAnswer& answer);
+/// Receives a result. Throws InputError as read_apart does.
+ReadAnswer receive_answer(const std::filesystem::path& path, Receiver& receiver);
 
 }  // namespace dtof

@@ -22,14 +22,6 @@ struct ReadAnswer {
 /// result.
 ReadAnswer read_apart(const std::filesystem::path& path, const std::function<ReadAnswer()>& read);
 
-class Sender;
-class Receiver;
-
-/// Sends a result out of the other process.
-void send_answer(const Sender& sender, const ReadAnswer& answer);
-/// Throws InputError as read_apart does.
-ReadAnswer receive_answer(const std::filesystem::path& path, Receiver& receiver);
-
 /// One piece of data that may be larger than memory.
 using ReadPiece = std::vector<std::uint64_t>;
 using GivePiece = std::function<void(const ReadPiece&)>;
