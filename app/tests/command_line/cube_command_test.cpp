@@ -12,6 +12,7 @@
 #include "dtof/core/physical_constants.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/npy.hpp"
+#include "tests/container/hdf5_writer.hpp"
 #include "tests/container/zip_writer.hpp"
 #include "tests/io/io_test_support.hpp"
 #include "tests/run_shell.hpp"
@@ -105,7 +106,11 @@ TEST_F(CubeCommand, ACubeInItsFileIsTheHeldOne) {
       run_shell(fmt::format("cd '{}' && cat a.npy | {} {}--cube /dev/stdin --cube-bin-width 1e-10 --out held",
                             path("").string(), DTOF_PROGRAM, kSmallFrame));
   ASSERT_EQ(piped.exit_code, 0) << piped.output;
-  for (const char* const file : {"a.npy --cube-bin-width 1e-10", "stored.npz", "deflated.npz"}) {
+  test::write_hdf5(path("a.h5"), {1, 2, 400}, two_returns(), H5T_IEEE_F64LE,
+                   {.chunk = {1, 1, 100}, .deflate = true});
+  test::write_hdf5(path("a.mat"), {1, 2, 400}, two_returns(), H5T_IEEE_F64LE, {.matlab = true});
+  for (const char* const file : {"a.npy --cube-bin-width 1e-10", "stored.npz", "deflated.npz",
+                                 "a.h5 --cube-bin-width 1e-10", "a.mat --cube-bin-width 1e-10"}) {
     ASSERT_EQ(dtof(fmt::format("{}--cube {} --out out", kSmallFrame, file)).exit_code, 0) << file;
     EXPECT_EQ(contents(path("out/histogram.csv")), contents(path("held/histogram.csv"))) << file;
   }
@@ -113,6 +118,15 @@ TEST_F(CubeCommand, ACubeInItsFileIsTheHeldOne) {
   test::write_zip(path("wrong.npz"), {stored, key}, false);
   EXPECT_EQ(dtof(kSmallFrame + "--cube wrong.npz --out wrong").output,
             "dtof: error: wrong.npz:cube: damaged: the checksum (CRC-32) is not that of the archive\n");
+  std::vector<double> events = two_returns();
+  events.back() = 0x1.23456789abcdep-9;
+  test::write_hdf5(path("wrong.h5"), {1, 2, 400}, events, H5T_IEEE_F64LE,
+                   {.chunk = {1, 1, 400}, .fletcher32 = true});
+  std::string file = contents(path("wrong.h5"));
+  file[file.find(test::bytes_of(events.back()))] ^= 1;
+  (void)write("wrong.h5", file);
+  EXPECT_EQ(dtof(kSmallFrame + "--cube wrong.h5 --cube-bin-width 1e-10 --out wrong").output,
+            "dtof: error: wrong.h5: /a: the dataset is damaged, or packed by a filter that is not here\n");
   EXPECT_FALSE(std::filesystem::exists(path("wrong")));
 }
 

@@ -21,9 +21,7 @@ bool is_hdf5(const std::filesystem::path& path);
 /// InputError "<path>: <reason>" for a damaged file.
 std::vector<std::string> hdf5_names(const std::filesystem::path& path);
 
-/// Reads a numeric dataset in C order. With an empty `name` the file must have exactly one. A MATLAB variable
-/// (rows, columns, bins) keeps this shape. Throws InputError if the dataset is missing, ambiguous, not
-/// numeric, empty or damaged, has more than 2^27 elements, or holds an integer beyond 2^53.
+/// Reads all of a dataset as open_hdf5_array (hdf5_reader.hpp) does, at most 2^27 elements.
 NpyArray read_hdf5_array(const std::filesystem::path& path, const std::string& name);
 
 /// A cell array of MATLAB's version 7.3; each cell holds a vector of numbers.
@@ -35,7 +33,7 @@ struct Hdf5Cells {
 /// True if the dataset is such a cell array; false also if no dataset has this name.
 bool is_hdf5_cell_array(const std::filesystem::path& path, const std::string& name);
 
-/// Reads such a cell array. Throws InputError as read_hdf5_array does.
+/// Reads such a cell array, which is held. Throws InputError as read_hdf5_array does.
 Hdf5Cells read_hdf5_cells(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace dtof

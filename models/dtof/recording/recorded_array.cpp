@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "dtof/container/array_address.hpp"
-#include "dtof/container/hdf5_array.hpp"
+#include "dtof/container/hdf5_reader.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/io/byte_source.hpp"
 #include "dtof/io/npy_reader.hpp"
@@ -41,7 +41,7 @@ std::string format_read_in_place(const std::filesystem::path& path) {
 }
 
 bool is_read_in_place(const RecordingFile& file) {
-  return file.contents.empty() && (file.format == "npy" || file.format == "npz");
+  return file.contents.empty() && (file.format == "npy" || file.format == "npz" || file.format == "hdf5");
 }
 
 NpzArchive open_archive(const RecordingOptions& options, const RecordingFile& file) {
@@ -62,7 +62,7 @@ std::unique_ptr<ArrayReader> open_array_reader(const RecordingOptions& options, 
   if (file.format == "mat") {
     return std::make_unique<HeldArray>(parse_mat_array(path, file.contents, variable_of(options)));
   }
-  return std::make_unique<HeldArray>(read_hdf5_array(path, array));
+  return open_hdf5_array(path, array);
 }
 
 NpyArray open_array(const RecordingOptions& options, const RecordingFile& file) {

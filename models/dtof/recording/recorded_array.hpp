@@ -16,7 +16,7 @@ namespace dtof {
 /// another file, for gzip and for a pipe.
 std::string format_read_in_place(const std::filesystem::path& path);
 
-/// True for a file of format npy or npz that is not held: format_read_in_place.
+/// True for a file of format hdf5, and of format npy or npz that is not held: format_read_in_place.
 bool is_read_in_place(const RecordingFile& file);
 
 /// The archive of a file of format npz. `file` must outlive it.

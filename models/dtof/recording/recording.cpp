@@ -201,6 +201,14 @@ PhotonTimes times_of_cells(const std::filesystem::path& path, const Hdf5Cells& c
   return photons;
 }
 
+/// Why histograms that have to be held are too many.
+constexpr const char* kFarApart =
+    "more than 2^27 counts, and those of a pixel or of a column of pixels lie far apart in the file; in an "
+    "NPY file, which dtof convert writes, they have no limit";
+constexpr const char* kForwardAlone =
+    "more than 2^27 counts that are deflated or in Fortran order; in C order, in an NPY file or stored in an "
+    "NPZ archive, they have no limit (dtof convert writes deflated ones as NPY)";
+
 /// Histograms of an array; those of a file that is read in place stay there if they can be read at any place.
 RecordedData open_histograms(const RecordingOptions& options, const RecordingFile& file) {
   const double bin_width = bin_width_of(options, file);
@@ -211,9 +219,7 @@ RecordedData open_histograms(const RecordingOptions& options, const RecordingFil
     data.data = std::move(histograms);
   } else {
     if (histograms.counts->count() > kMostHeldElements) {
-      histograms.cube.fail(
-          "more than 2^27 counts that are deflated or in Fortran order; in C order, in an NPY file or stored "
-          "in an NPZ archive, they have no limit (dtof convert writes deflated ones as NPY)");
+      histograms.cube.fail(file.format == "hdf5" ? kFarApart : kForwardAlone);
     }
     data.data = held_cube(std::move(histograms));
   }

@@ -14,6 +14,7 @@
 
 #include "dtof/container/array_address.hpp"
 #include "dtof/container/hdf5_array.hpp"
+#include "dtof/container/hdf5_reader.hpp"
 #include "dtof/container/npz.hpp"
 #include "dtof/io/input_file.hpp"
 #include "dtof/io/npy_reader.hpp"
@@ -87,9 +88,8 @@ TransientFile read_transient_file(const std::string& name) {
   if (is_hdf5(path)) {
     // A name may lack the slash in front.
     const std::string wanted = array.empty() || array.starts_with('/') ? array : "/" + array;
-    return read_members(path, wanted, hdf5_names(path), [&](const std::string& member) {
-      return std::make_unique<HeldArray>(read_hdf5_array(path, member));
-    });
+    return read_members(path, wanted, hdf5_names(path),
+                        [&](const std::string& member) { return open_hdf5_array(path, member); });
   }
   const std::string format = format_read_in_place(path);
   if (format == "npy") {

@@ -24,8 +24,7 @@ struct TransientFile {
 /// Reads a transient cube: an NPY file, or an array of an NPZ archive, an HDF5 file or a MATLAB file of
 /// version 7.3. `name` may name the array (container/array_address.hpp). Without a name the cube is the only
 /// array beside `bin_width_s`, `bin_width_ps` and `start_s`, which give the time axis. A cube in a regular
-/// file (NPY, NPZ) may have any length; one of HDF5, from a pipe or in gzip is held. Throws InputError
-/// "<path>: <reason>".
+/// file may have any length; one from a pipe or in gzip is held. Throws InputError "<path>: <reason>".
 TransientFile read_transient_file(const std::string& name);
 
 }  // namespace dtof

@@ -14,6 +14,7 @@
 #include "dtof/io/depth_image.hpp"
 #include "dtof/io/result_csv.hpp"
 #include "dtof/recording/picoquant.hpp"
+#include "tests/container/hdf5_writer.hpp"
 #include "tests/container/photon_hdf5_writer.hpp"
 #include "tests/io/io_test_support.hpp"
 
@@ -147,6 +148,30 @@ TEST_F(ConversionTest, TimeTagsBecomeTheEventsOfAnotherLibrary) {
       "missing");
   EXPECT_EQ(contents(path("a.csv")),
             "channel,sync,time_ps\n" + contents(test::shared_data("picoquant/v10.ht3.data")));
+}
+
+TEST_F(ConversionTest, AnHdf5DatasetBecomesWhatItsNpyBecomes) {
+  const std::vector<std::size_t> shape = {3, 5, 64};
+  std::vector<double> counts(3 * 5 * 64);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    counts[i] = static_cast<double>(i % 7 == 0 ? i % 3 : 0);
+  }
+  write_npy(path("a.npy"), shape, counts);
+  const ConversionOptions options{.recording = {.bin_width_s = 100e-12}};
+  (void)run("a.npy", "npy.csv", options);
+  for (const test::Hdf5Layout& layout :
+       {test::Hdf5Layout{},
+        {.chunk = {2, 2, 33}, .deflate = true},
+        {.matlab = true},
+        {.chunk = {1, 5, 1}, .shuffle = true, .fletcher32 = true, .matlab = true}}) {
+    test::write_hdf5(path("a.h5"), {3, 5, 64}, counts, H5T_STD_U16LE, layout);
+    EXPECT_EQ(run("a.h5", "h5.npy"), "an array of shape (3, 5, 64)");
+    EXPECT_EQ(contents(path("h5.npy")), contents(path("a.npy")));
+    (void)run("a.h5:/a", "h5.npz");
+    EXPECT_EQ(member("h5.npz", "a").values, counts);
+    (void)run("a.h5", "h5.csv", options);
+    EXPECT_EQ(contents(path("h5.csv")), contents(path("npy.csv")));
+  }
 }
 
 TEST_F(ConversionTest, PhotonHdf5BecomesEventsAndHistograms) {

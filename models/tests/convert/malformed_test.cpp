@@ -12,6 +12,7 @@
 #include "dtof/convert/conversion.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/npy.hpp"
+#include "tests/container/hdf5_writer.hpp"
 #include "tests/container/photon_hdf5_writer.hpp"
 #include "tests/container/zip_writer.hpp"
 #include "tests/io/io_test_support.hpp"
@@ -82,8 +83,19 @@ class MalformedTest : public test::IoTest {
     }
     return contents(path("made.h5"));
   }
+  /// HDF5 of 5000 x 1000 numbers with a checksum for each thousand rows; that of the last ones is wrong.
+  [[nodiscard]] std::string hdf5_of_wrong_checksum() const {
+    std::vector<double> values(5'000'000, 1.0);
+    values.back() = 0x1.23456789abcdep9;
+    test::write_hdf5(path("made.h5"), {5000, 1, 1000}, values, H5T_IEEE_F64LE,
+                     {.chunk = {1000, 1, 1000}, .fletcher32 = true});
+    std::string file = contents(path("made.h5"));
+    file[file.find(test::bytes_of(values.back()))] ^= 1;
+    return file;
+  }
   [[nodiscard]] std::vector<MalformedFile> table() const;
   [[nodiscard]] std::vector<MalformedFile> archives() const;
+  [[nodiscard]] std::vector<MalformedFile> datasets() const;
   void expect_sentence(const MalformedFile& one) const;
 };
 
@@ -184,6 +196,18 @@ std::vector<MalformedFile> MalformedTest::archives() const {
   };
 }
 
+std::vector<MalformedFile> MalformedTest::datasets() const {
+  const std::string wrong = hdf5_of_wrong_checksum();
+  const std::string damaged = " /a: the dataset is damaged, or packed by a filter that is not here";
+  return {
+      {"HDF5 cut by a full disk", "a.h5", wrong.substr(0, wrong.size() / 2), "a.npy",
+       " the HDF5 file is damaged or ends early"},
+      {"a wrong byte behind a megabyte of output", "a.h5", wrong, "a.npy", damaged},
+      {"a wrong byte behind a megabyte of output, packed", "a.h5", wrong, "a.npz", damaged},
+      {"a wrong byte, as photons", "a.h5", wrong, "a.csv", damaged},
+  };
+}
+
 void MalformedTest::expect_sentence(const MalformedFile& one) const {
   SCOPED_TRACE(one.what);
   const std::filesystem::path file = write(one.name, one.contents);
@@ -192,7 +216,7 @@ void MalformedTest::expect_sentence(const MalformedFile& one) const {
     sentence.replace(at, 4, file.string());
   }
   ConversionOptions options{.out = path("out" + one.out).string(), .recording = {.file = file.string()}};
-  if (one.name == "a.npz" && one.out == "a.csv") {
+  if (one.out == "a.csv" && (one.name == "a.npz" || one.name == "a.h5")) {
     options.recording.bin_width_s = 1e-9;
   }
   const std::size_t files = file_count();
@@ -210,6 +234,12 @@ TEST_F(MalformedTest, EachFileHasItsSentenceAndLeavesNoOutput) {
 
 TEST_F(MalformedTest, EachArchiveHasItsSentenceAndLeavesNoOutput) {
   for (const MalformedFile& one : archives()) {
+    expect_sentence(one);
+  }
+}
+
+TEST_F(MalformedTest, EachDatasetHasItsSentenceAndLeavesNoOutput) {
+  for (const MalformedFile& one : datasets()) {
     expect_sentence(one);
   }
 }

@@ -12,6 +12,7 @@
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/npy.hpp"
 #include "dtof/recording/recording.hpp"
+#include "tests/container/hdf5_writer.hpp"
 #include "tests/container/zip_writer.hpp"
 #include "tests/io/io_test_support.hpp"
 
@@ -60,11 +61,20 @@ TEST_F(HistogramFileTest, PhotonsAreThoseOfAHeldCube) {
   write_gzip_file(path("a.npy.gz"), contents(path("a.npy")));
   test::write_zip(path("stored.npz"), {test::stored_part("a.npy", contents(path("a.npy")))}, false);
   test::write_zip(path("deflated.npz"), {test::deflated_part("a.npy", contents(path("a.npy")))}, false);
+  test::write_hdf5(path("a.h5"), {5, 4, 16}, counts_);
+  test::write_hdf5(path("chunks.h5"), {5, 4, 16}, counts_, H5T_STD_U16BE,
+                   {.chunk = {2, 3, 5}, .deflate = true});
+  test::write_hdf5(path("matlab.h5"), {5, 4, 16}, counts_, H5T_IEEE_F32LE, {.matlab = true});
   for (const std::optional<double> budget : {std::optional<double>(), std::optional(20.0)}) {
     const HistogramStream held(histogram_cube({shape, counts_}, 1e-9),
                                options_of(path("a.npy"), budget).resampling);
-    for (const auto& [name, stays] :
-         {std::pair{"a.npy", true}, {"stored.npz", true}, {"a.npy.gz", false}, {"deflated.npz", false}}) {
+    for (const auto& [name, stays] : {std::pair{"a.npy", true},
+                                      {"stored.npz", true},
+                                      {"a.npy.gz", false},
+                                      {"deflated.npz", false},
+                                      {"a.h5", true},
+                                      {"chunks.h5", true},
+                                      {"matlab.h5", false}}) {
       SCOPED_TRACE(name);
       const RecordingOptions options = options_of(path(name), budget);
       EXPECT_EQ(stays_in_its_file(options), stays);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files beyond 4 GiB: what is read in pieces or where it lies is read to its end, what is held is refused
-// before it is held. The files have holes, so that they take no space on the disk.
+// Files and arrays beyond 4 GiB: what is read in pieces or where it lies is read to its end, what is held is
+// refused before it is held. The files have holes, so that they take no space on the disk.
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <sys/resource.h>
@@ -12,7 +12,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +22,7 @@
 #include <vector>
 
 #include "dtof/container/hdf5_array.hpp"
+#include "dtof/container/hdf5_reader.hpp"
 #include "dtof/container/npz.hpp"
 #include "dtof/io/array_reader.hpp"
 #include "dtof/io/atomic_file.hpp"
@@ -320,28 +323,85 @@ TEST_F(LongFileTest, LinesBeyond4GiBAreReadAndCounted) {
   EXPECT_LT(held() - before, std::uint64_t{1} << 26U);
 }
 
-TEST_F(LongFileTest, AnHdf5ArrayBehind4GiBIsReadAndALongOneIsRefused) {
+/// Adds a dataset; `write` may write into it.
+void add_dataset(hid_t file, const char* name, const std::vector<hsize_t>& extents, hid_t layout,
+                 const std::function<void(hid_t)>& write) {
+  const hid_t space = H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr);
+  const hid_t dataset = H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+  write(dataset);
+  H5Dclose(dataset);
+  H5Sclose(space);
+}
+
+/// Writes 3 into the last bin of the last pixel.
+void write_last_bin(hid_t dataset) {
+  const std::array<hsize_t, 3> begin = {kLongRows - 1, 7, 1023};
+  const std::array<hsize_t, 3> one = {1, 1, 1};
+  const hid_t space = H5Dget_space(dataset);
+  const hid_t memory = H5Screate_simple(3, one.data(), nullptr);
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, begin.data(), nullptr, one.data(), nullptr);
+  const double photons = 3.0;
+  H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, &photons);
+  H5Sclose(memory);
+  H5Sclose(space);
+}
+
+TEST_F(LongFileTest, AnHdf5ArrayBeyond4GiBStaysInItsFile) {
   const hid_t file = H5Fcreate(path("a.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
-  const auto add = [&](const char* name, hsize_t extent, const std::vector<double>& values) {
-    const hid_t space = H5Screate_simple(1, &extent, nullptr);
-    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
-    H5Pset_alloc_time(layout, H5D_ALLOC_TIME_EARLY);  // the place is taken, and nothing is written into it
-    H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER);
-    const hid_t dataset = H5Dcreate2(file, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, layout, H5P_DEFAULT);
-    if (!values.empty()) {
-      H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
-    }
-    H5Dclose(dataset);
-    H5Pclose(layout);
-    H5Sclose(space);
-  };
-  add("long", kFourGiB / 8 + 1, {});
-  add("behind", 3, {1.0, 2.0, 3.0});
+  const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_alloc_time(layout, H5D_ALLOC_TIME_EARLY);  // the place is taken, and nothing is written into it
+  H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER);
+  add_dataset(file, "long", {kLongRows, 8, 1024}, layout, write_last_bin);
+  add_dataset(file, "behind", {3}, layout, [](hid_t dataset) {
+    const std::array<double, 3> values = {1.0, 2.0, 3.0};
+    H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  });
+  H5Pclose(layout);
   H5Fclose(file);
   ASSERT_TRUE(is_sparse("a.h5"));
+  const AddressLimit limit;
   EXPECT_THAT(read_hdf5_array(path("a.h5"), "/behind").values, ElementsAre(1.0, 2.0, 3.0));
   test::expect_input_error([&] { (void)read_hdf5_array(path("a.h5"), "/long"); },
-                           EndsWith("/long: shape (536870913) holds more than 2^27 elements"));
+                           EndsWith("/long: shape (65539, 8, 1024) holds more than 2^27 elements"));
+  expect_photons_at_the_end("a.h5:/long");
+}
+
+TEST_F(LongFileTest, APackedHdf5ArrayBeyond4GiBIsReadToItsEnd) {
+  const hid_t file = H5Fcreate(path("a.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+  const std::array<hsize_t, 3> chunk = {100, 8, 512};  // of which the last one alone is in the file
+  H5Pset_chunk(layout, 3, chunk.data());
+  H5Pset_deflate(layout, 1);
+  H5Pset_fletcher32(layout);
+  add_dataset(file, "long", {kLongRows, 8, 1024}, layout, write_last_bin);
+  H5Pclose(layout);
+  H5Fclose(file);
+  EXPECT_LT(std::filesystem::file_size(path("a.h5")), std::uint64_t{1} << 24U);
+  const AddressLimit limit;
+  const std::uint64_t before = held();
+  const std::unique_ptr<ArrayReader> array = open_hdf5_array(path("a.h5"), "");
+  EXPECT_FALSE(array->any_place());  // a column is in all chunks
+  double sum = 0.0;
+  double last = 0.0;
+  std::size_t count = 0;
+  for_each_piece(*array, [&](std::span<const double> values) {
+    sum = std::accumulate(values.begin(), values.end(), sum);
+    last = values.back();
+    count += values.size();
+  });
+  EXPECT_EQ(count, kLongBytes / 8);
+  EXPECT_EQ(sum, 3.0);
+  EXPECT_EQ(last, 3.0);
+  std::array<double, 2> place{};
+  array->read_at(count - 2, place);
+  EXPECT_THAT(place, ElementsAre(0.0, 3.0));
+  EXPECT_LT(held() - before, std::uint64_t{1} << 26U);
+  const RecordingOptions options{.file = path("a.h5"), .bin_width_s = 1e-11};
+  test::expect_input_error(
+      [&] { (void)open_recording(options, read_recording(options)); },
+      path("a.h5") +
+          ": more than 2^27 counts, and those of a pixel or of a column of pixels lie far "
+          "apart in the file; in an NPY file, which dtof convert writes, they have no limit");
 }
 
 }  // namespace
