@@ -157,7 +157,7 @@ TEST_F(ConversionTest, AnHdf5DatasetBecomesWhatItsNpyBecomes) {
     counts[i] = static_cast<double>(i % 7 == 0 ? i % 3 : 0);
   }
   write_npy(path("a.npy"), shape, counts);
-  const ConversionOptions options{.recording = {.bin_width_s = 100e-12}};
+  const ConversionOptions options{.recording = {.file = "", .bin_width_s = 100e-12}};
   (void)run("a.npy", "npy.csv", options);
   for (const test::Hdf5Layout& layout :
        {test::Hdf5Layout{},
