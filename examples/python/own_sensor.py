@@ -152,19 +152,20 @@ program = shutil.which("dtof", path=os.pathsep.join(filter(None, places)))
 if program is None:
     print("no chip: the program dtof is not found; build it with make, or put its folder into PATH")
 else:
+    dtof_program = Path(program).absolute()
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
         (folder / "mine.toml").write_text(sensor_file, encoding="utf-8")
 
         def dtof_says(*arguments):
             """The JSON object that the program prints."""
-            done = subprocess.run([program, *arguments, "--json"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True)
+            done = subprocess.run(arguments, executable=dtof_program, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True)
             return json.loads(done.stdout)
 
-        design = dtof_says("design", "--quick", "--sensor", "mine.toml", "--klux", "14", "--max-mm2", "0.3", "--out", "design")
+        design = dtof_says("dtof", "design", "--quick", "--sensor", "mine.toml", "--klux", "14", "--max-mm2", "0.3", "--out", "design", "--json")
         print(f"recommended: {design['readout']}, {design['mm2']:.2f} mm2")
         print(f"its product: {design['product']}")
-        product = dtof_says(*shlex.split(design["product"])[1:], "--vector-acquisitions", "4")
+        product = dtof_says(*shlex.split(design["product"]), "--vector-acquisitions", "4", "--json")
         for entry in sorted((folder / product["out"]).iterdir()):
             if entry.is_dir():
                 print(f"  {entry.name + '/':14}{sum(file.is_file() for file in entry.rglob('*')):4} files")

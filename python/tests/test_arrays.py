@@ -58,11 +58,12 @@ class ArrayTest(unittest.TestCase):
             return most > 4 * array.size
 
         zeros, pulses = np.zeros(4000, np.int64), np.arange(4000, dtype=np.int64)
-        for function, shape, own, other in (
-                (dtof.Scene.from_depth, (50, 40), np.float32, np.float64),
-                (lambda cube: dtof.Scene.from_cube(cube, 1e-9), (10, 8, 40), np.float64, np.float32),
-                (lambda codes: dtof.event_list(zeros, zeros, pulses, codes, columns=1, rows=1, acquisitions=4000, np=6), (4000,), np.int64, np.uint16)):
-            array = np.ones(shape, own)
+        takers: list[tuple[Callable[[npt.NDArray[Any]], object], tuple[int, ...], type, type]] = [
+            (dtof.Scene.from_depth, (50, 40), np.float32, np.float64),
+            (lambda cube: dtof.Scene.from_cube(cube, 1e-9), (10, 8, 40), np.float64, np.float32),
+            (lambda codes: dtof.event_list(zeros, zeros, pulses, codes, columns=1, rows=1, acquisitions=4000, np=6), (4000,), np.int64, np.uint16)]
+        for function, shape, own, other in takers:
+            array: npt.NDArray[Any] = np.ones(shape, own)
             self.assertFalse(copies(function, array), shape)
             self.assertTrue(copies(function, array.astype(other)), shape)
             if len(shape) > 1:
