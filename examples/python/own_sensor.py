@@ -2,10 +2,17 @@
 # %% [markdown]
 # # Own sensor
 #
-# From a sensor file to a table of read-outs: which one serves this sensor in this light, and how sure is that?
+# From a sensor file to a table of read-outs (which one serves this sensor in this light, and how sure is that?), and on to a chip: RTL, driver
+# and test bench for the sensor.
 
 # %%
+import json
+import os
+import shlex
+import shutil
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -132,3 +139,35 @@ if pyplot is not None:
     axis.legend()
     figure.savefig(out / "own_sensor.png", dpi=100)
     print(out / "own_sensor.png")
+
+# %% [markdown]
+# ## From the sensor to a chip
+#
+# The program `dtof` goes on from here (docs/user/design.md): `dtof design` recommends a read-out within limits of area, power, frame rate and clock,
+# and `dtof product` writes a folder for an integrator. The program is looked for in the folder DTOF_BIN, in PATH and where `make` puts it.
+
+# %%
+places = [os.environ.get("DTOF_BIN", ""), os.environ.get("PATH", ""), str(Path.cwd() / "build" / "cpp" / "bin")]
+program = shutil.which("dtof", path=os.pathsep.join(filter(None, places)))
+if program is None:
+    print("no chip: the program dtof is not found; build it with make, or put its folder into PATH")
+else:
+    dtof_program = Path(program).absolute()
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(scratch)
+        (folder / "mine.toml").write_text(sensor_file, encoding="utf-8")
+
+        def dtof_says(*arguments):
+            """The JSON object that the program prints."""
+            done = subprocess.run(arguments, executable=dtof_program, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True)
+            return json.loads(done.stdout)
+
+        design = dtof_says("dtof", "design", "--quick", "--sensor", "mine.toml", "--klux", "14", "--max-mm2", "0.3", "--out", "design", "--json")
+        print(f"recommended: {design['readout']}, {design['mm2']:.2f} mm2")
+        print(f"its product: {design['product']}")
+        product = dtof_says(*shlex.split(design["product"]), "--vector-acquisitions", "4", "--json")
+        for entry in sorted((folder / product["out"]).iterdir()):
+            if entry.is_dir():
+                print(f"  {entry.name + '/':14}{sum(file.is_file() for file in entry.rglob('*')):4} files")
+            else:
+                print(f"  {entry.name}")

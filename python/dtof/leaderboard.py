@@ -17,6 +17,7 @@ on flat targets at the same light, as for the read-outs of the project.
 import argparse
 import csv
 import importlib.util
+import json
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -257,6 +258,20 @@ def write_csv(rows: Sequence[Row], file: Path) -> None:
                              *shares])
 
 
+def as_json(rows: Sequence[Row], settings: Settings) -> str:
+    """Returns the rows of the tables and what they have read as a JSON object. Shares and intervals are parts of 1."""
+    ranked = []
+    for klux in dict.fromkeys(row.klux for row in rows):
+        for rank, row in enumerate((row for row in rows if row.klux == klux), 1):
+            shares = {name + end: value for name in LIMITS
+                      for end, value in zip(("", "_low", "_high"), (row.shares[name].value, *row.shares[name].interval))}
+            ranked.append({"klux": klux, "rank": rank, "readout": row.entry.title, "kind": row.entry.kind, "bits_per_pixel": row.entry.bits,
+                           "on_the_front": on_the_front(row, rows), "pixels": row.pixels, **shares})
+    read = {"sensor": settings.sensor.name, "acquisitions": settings.sensor.acquisitions, "scenes": settings.scenes, "columns": settings.columns,
+            "rows": settings.rows, "frames": settings.frames, "seed": settings.seed}
+    return json.dumps({"settings": read, "rows": ranked}, indent=2, allow_nan=False) + "\n"
+
+
 def chosen(names: str, settings: Settings, bits: dict[str, float]) -> list[Entry]:
     """The project's read-outs and the rivals of a list of names; `all` is every one, `none` is none."""
     known = [*_core.readouts(), *_core.rivals()]
@@ -287,6 +302,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=1, help="seed of everything random (default: %(default)s)")
     parser.add_argument("--bits", nargs="*", type=_bits, default=[], metavar="NAME=BITS", help="bits per pixel of the project's read-outs")
     parser.add_argument("--out", type=Path, help="folder for leaderboard.md and leaderboard.csv")
+    parser.add_argument("--json", action="store_true", help="one JSON object instead of the tables on standard output")
     options = parser.parse_args(arguments)
     terminal = sys.stderr.isatty()
     try:
@@ -310,7 +326,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if terminal:
         print("\r\033[K", end="", file=sys.stderr)
     text = f"{described(settings)}\n{table(rows)}"
-    print(text, end="")
+    print(as_json(rows, settings) if options.json else text, end="")
     if options.out is not None:
         try:
             options.out.mkdir(parents=True, exist_ok=True)

@@ -2,7 +2,9 @@
 """Arrays: shapes, types, memory that is shared and lives long enough, events there and back."""
 
 import gc
+import tracemalloc
 import unittest
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -45,6 +47,31 @@ class ArrayTest(unittest.TestCase):
         wanted = dtof.Scene.from_depth(depth).depth_m
         for other in (np.asfortranarray(depth), depth.astype(">f4"), np.repeat(depth, 2, axis=1)[:, ::2], depth.tolist()):
             np.testing.assert_array_equal(dtof.Scene.from_depth(other).depth_m, wanted)
+
+    def test_an_array_is_copied_where_its_type_or_order_differs(self) -> None:
+        def copies(function: Callable[[npt.NDArray[Any]], object], array: npt.NDArray[Any]) -> bool:
+            """Whether NumPy has made another array as large as this one: it tells tracemalloc of its memory, the library does not."""
+            tracemalloc.start()
+            function(array)
+            most = tracemalloc.get_traced_memory()[1]
+            tracemalloc.stop()
+            return most > 4 * array.size
+
+        zeros, pulses = np.zeros(4000, np.int64), np.arange(4000, dtype=np.int64)
+        takers: list[tuple[Callable[[npt.NDArray[Any]], object], tuple[int, ...], type, type]] = [
+            (dtof.Scene.from_depth, (50, 40), np.float32, np.float64),
+            (lambda cube: dtof.Scene.from_cube(cube, 1e-9), (10, 8, 40), np.float64, np.float32),
+            (lambda codes: dtof.event_list(zeros, zeros, pulses, codes, columns=1, rows=1, acquisitions=4000, np=6), (4000,), np.int64, np.uint16)]
+        for function, shape, own, other in takers:
+            array: npt.NDArray[Any] = np.ones(shape, own)
+            self.assertFalse(copies(function, array), shape)
+            self.assertTrue(copies(function, array.astype(other)), shape)
+            if len(shape) > 1:
+                self.assertTrue(copies(function, np.asfortranarray(array)), shape)
+        depth = np.ones((5, 4), np.float32)
+        scene = dtof.Scene.from_depth(depth)
+        depth[:] = 2.0
+        self.assertEqual(scene.depth_m[0, 0], 1.0)
 
     def test_maps_that_are_none(self) -> None:
         for depth, sentence in [(np.zeros(3), "two axes"), (np.array([[-1.0]]), "-1"), (np.zeros((0, 2)), "")]:

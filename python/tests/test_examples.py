@@ -12,7 +12,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from programs import ROOT
+from programs import BIN, ROOT
 
 EXAMPLES = ROOT / "examples" / "python"
 PICTURES: dict[str, list[str]] = {"first_picture": ["first_picture.png", "first_picture_pixel.png"], "own_sensor": ["own_sensor.png"],
@@ -21,10 +21,10 @@ PAGE = ROOT / "docs" / "user" / "python.md"
 SECONDS = 60.0
 
 
-def run(code: str | Path, folder: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+def run(code: str | Path, folder: str, *arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-W", "error::DeprecationWarning:__main__"] + (["-c", code] if isinstance(code, str) else [str(code)])
     return subprocess.run([*command, *arguments], capture_output=True, text=True, check=False, cwd=folder, timeout=600,
-                          env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
+                          env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path), "DTOF_BIN": str(BIN)} | environment)
 
 
 def processor_seconds() -> float:
@@ -59,6 +59,18 @@ class ExamplesTest(unittest.TestCase):
         said = self.try_example("own_sensor")
         self.assertRegex(said, r"(?m)^hisPointer {2,}[\d.]+% \( *[\d.]+% to +[\d.]+%\) +\d+ mm")
         self.assertRegex(said, r"HEDH-4 +30 bits a pixel: [\d.]+%")
+        recommended = re.search(r"(?m)^recommended: ([a-z-]+), 0\.[012]\d mm2$", said)  # --max-mm2 0.3
+        assert recommended is not None, said
+        self.assertIn(f"its product: dtof product --sensor mine.toml --readout {recommended[1]} ", said)
+        for file in ("rtl/ ", "driver/ ", "bench/ ", "vectors/ ", "Makefile\n", "product.f\n", "sensor.toml\n", "README.md\n"):
+            self.assertIn(f"\n  {file}", said)
+
+    def test_own_sensor_without_the_program(self) -> None:
+        cells = (EXAMPLES / "own_sensor.py").read_text(encoding="utf-8").split("# %%\n")
+        with tempfile.TemporaryDirectory() as folder:
+            done = run("\n".join([cells[1], 'sensor_file = ""', cells[-1]]), folder, DTOF_BIN="", PATH="")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout, "no chip: the program dtof is not found; build it with make, or put its folder into PATH\n")
 
     def test_own_data(self) -> None:
         said = self.try_example("own_data")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """`pip install .` from the source tree without network, and what CMake says where pybind11 is not.
 
-pip packs the module that these tests import, and what it would compile is listed. DTOF_TEST_LONG=1, as .ci/long has it: pip compiles the module.
+pip packs the module that these tests import, and what it would compile is listed. DTOF_TEST_LONG=1, as .ci/long has it: pip compiles the module, and
+the examples run with it outside of the source tree.
 """
 
 import importlib.util
@@ -16,7 +17,7 @@ from pathlib import Path
 
 import dtof
 
-from programs import ROOT
+from programs import BIN, ROOT
 
 LONG = "DTOF_TEST_LONG" in os.environ
 NEEDED = ("pip", "setuptools", "wheel")
@@ -55,6 +56,11 @@ class InstallTest(unittest.TestCase):
                                        env=environment | {"DTOF_CACHE": folder}).stdout
                 photons = dtof.event_list([0, 0], [0, 1], [3, 7], [9, 40], columns=1, rows=2, acquisitions=50, np=6)
                 self.assertEqual(codes.strip(), str(dtof.read_out(photons, dtof.Readout("sifh", np=6)).code.tolist()))
+            if LONG:
+                for example in sorted((ROOT / "examples" / "python").glob("*.py")):
+                    done = subprocess.run([python, shutil.copy(example, folder), folder], cwd=folder, capture_output=True, text=True, check=False,
+                                          env=environment | {"DTOF_BIN": str(BIN)})
+                    self.assertEqual((done.returncode, done.stderr), (0, ""), example.name)
             typed = [path.name for path in Path(said.split()[0]).parent.iterdir()]
         self.assertTrue(said.startswith(folder), said)
         made = dtof.frame(dtof.Scene("room", columns=4, rows=4), readouts=["sifh"])["sifh"]

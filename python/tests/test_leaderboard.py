@@ -4,6 +4,7 @@
 import contextlib
 import csv
 import io
+import json
 import re
 import shutil
 import tempfile
@@ -153,6 +154,28 @@ class ModelFiles(unittest.TestCase):
         code, said, errors = run(self.file(model), "--beside", "none", "--klux", "2", "--scene", "room", "--frames", "2", "--rows", "8")
         self.assertEqual((code, errors), (0, ""))
         self.assertIn("| 1 | **median** | model file | 10 |", said)
+
+    def test_json_has_the_rows_of_the_tables(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            arguments = ("--beside", "sifh,histogram32,ezpointer", "--bits", "sifh=24", "--klux", "5", "14", "--scene", "room", "--rows", "4",
+                         "--frames", "2", "--out", folder)
+            code, out, errors = run(*arguments, "--json")
+            self.assertEqual((code, errors), (0, ""))
+            said = json.loads(out)
+            with (Path(folder) / "leaderboard.csv").open(newline="", encoding="utf-8") as stream:
+                lines = list(csv.DictReader(stream))
+            page = (Path(folder) / "leaderboard.md").read_text(encoding="utf-8")
+        self.assertEqual(said["settings"], {"sensor": "thesis", "acquisitions": dtof.Sensor("thesis").acquisitions, "scenes": ["room"], "columns": 34,
+                                            "rows": 4, "frames": 2, "seed": 1})
+        self.assertEqual([(row["klux"], row["rank"]) for row in said["rows"]], [(klux, rank) for klux in (5, 14) for rank in (1, 2, 3)])
+        for row, line in zip(said["rows"], lines, strict=True):
+            self.assertEqual((row["readout"], row["kind"], row["pixels"]), (line["readout"], line["kind"], int(line["pixels"])))
+            self.assertEqual("" if row["bits_per_pixel"] is None else f"{row['bits_per_pixel']:g}", line["bits_per_pixel"])
+            for name in line.keys() - {"readout", "kind", "bits_per_pixel"}:
+                self.assertEqual(f"{row[name]:.6g}", f"{float(line[name]):.6g}", name)
+        bold = [row["readout"] for row in said["rows"] if row["on_the_front"]]
+        self.assertEqual(bold, re.findall(r"\*\*(.*?)\*\*", page))
+        self.assertEqual({row["bits_per_pixel"] for row in said["rows"] if row["readout"] == "ezPointer"}, {None})
 
     def test_an_interrupt_ends_with_one_line(self) -> None:
         model = self.file("TITLE = 'x'\nBITS_PER_PIXEL = 1\ndef read_out(photons, sensor):\n    raise KeyboardInterrupt\n")
