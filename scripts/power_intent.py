@@ -16,7 +16,7 @@ from upf import OPTIONS, Command, Design, IntentError, Scope, elaborate, execute
 PRIOR_HOLDERS = ("dtof_pool_quad", "dtof_pool_parity_store")  # the modules whose memories hold groups' words and their parities
 PRIOR_FLAG = "u_control.g_prior.ended_q"  # of dtof_pool_pointer_array
 # These have no meaning while valid or an enable is low, so their clamp is free.
-QUALIFIED = {"result_tdata_o", "result_tlast_o", "read_addr_i", "write_addr_i", "write_data_i"}
+QUALIFIED = {"result_tdata_o", "result_tlast_o", "read_addr_i", "write_addr_i", "write_parts_i", "write_data_i"}
 
 
 class Checker:

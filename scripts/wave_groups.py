@@ -26,7 +26,7 @@ CLOSED_GROUP_END = "@1401200"
 STAGE = re.compile(r"_([ts])(\d+)(?:_[qdio])?$")
 OTHER_COLUMN = re.compile(r"^g_(?:column|quad|pair|engine)\[(?!0\])\d+\]$")
 FRAME = ("start_i", "acq_num_i", "gate_begin_i", "gate_end_i", "busy_o", "done_o", "state_o", "error_o")
-MEMORY_PORTS = ("read_en_i", "read_addr_i", "read_data_o", "write_en_i", "write_addr_i", "write_data_i")
+MEMORY_PORTS = ("read_en_i", "read_addr_i", "read_data_o", "write_en_i", "write_addr_i", "write_parts_i", "write_data_i")
 
 
 @dataclass(frozen=True)

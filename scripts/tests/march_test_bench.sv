@@ -69,6 +69,7 @@ endmodule
 module dtof_macro_1rw #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
+    parameter int PARTS = 1,
     parameter int CFG_WIDTH = 2,
     localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
 ) (
@@ -78,6 +79,7 @@ module dtof_macro_1rw #(
     input  logic                  en_i,
     input  logic                  we_i,
     input  logic [ADDR_WIDTH-1:0] addr_i,
+    input  logic [     PARTS-1:0] wparts_i,
     input  logic [     WIDTH-1:0] wdata_i,
     output logic [     WIDTH-1:0] rdata_o
 );
@@ -91,7 +93,7 @@ module dtof_macro_1rw #(
       .re_i(en_i && !we_i),
       .raddr_i(addr_i),
       .rdata_o(rdata_o),
-      .we_i(en_i && we_i),
+      .we_i(en_i && we_i && wparts_i == {PARTS{1'b1}}),
       .waddr_i(addr_i),
       .wdata_i(wdata_i)
   );
@@ -155,6 +157,7 @@ module march_test_bench;
       .read_data_o(rdata),
       .write_en_i(1'b0),
       .write_addr_i({ADDR_WIDTH{1'b0}}),
+      .write_parts_i(1'b0),
       .write_data_i({WIDTH{1'b0}})
   );
 
@@ -240,7 +243,8 @@ module scan_bypass_bench;
   parameter int WIDTH = 5;
   parameter int PORTS = 1;
   localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1;
-  localparam int INPUTS = 2 + PORTS * ADDR_WIDTH + WIDTH;
+  localparam int PARTS = (PORTS == 1) ? 1 : 0;  // bits of the write mask
+  localparam int INPUTS = 2 + PORTS * ADDR_WIDTH + PARTS + WIDTH;
   logic clk = 1'b0;
   always #1 clk = !clk;
   logic [1:0] cfg = 2'b00, cfg_back;
@@ -252,7 +256,7 @@ module scan_bypass_bench;
     if (PORTS == 1) begin : g_one
       dtof_sram_1rw #(.DEPTH(DEPTH), .WIDTH(WIDTH)) u_sram (
           .clk_i(clk), .cfg_i(cfg), .cfg_o(cfg_back), .en_i(inputs[INPUTS-1]), .we_i(inputs[INPUTS-2]),
-          .addr_i(inputs[WIDTH+:ADDR_WIDTH]), .wdata_i(inputs[WIDTH-1:0]), .rdata_o(rdata));
+          .addr_i(inputs[WIDTH+PARTS+:ADDR_WIDTH]), .wparts_i(inputs[WIDTH]), .wdata_i(inputs[WIDTH-1:0]), .rdata_o(rdata));
     end else begin : g_two
       dtof_sram_1r1w #(.DEPTH(DEPTH), .WIDTH(WIDTH)) u_sram (
           .clk_i(clk), .cfg_i(cfg), .cfg_o(cfg_back), .re_i(inputs[INPUTS-1]), .we_i(inputs[INPUTS-2]),
@@ -271,7 +275,8 @@ module scan_bypass_bench;
     access = '0;
     access[INPUTS-1] = (PORTS == 1) || !write;
     access[INPUTS-2] = write;
-    access[WIDTH+:ADDR_WIDTH] = place;
+    access[WIDTH+PARTS+:ADDR_WIDTH] = place;
+    if (PARTS == 1) access[WIDTH] = write;
     if (PORTS == 2) access[WIDTH+(PORTS-1)*ADDR_WIDTH+:ADDR_WIDTH] = place;
     access[WIDTH-1:0] = data;
   endfunction

@@ -113,7 +113,7 @@ class MarchTest(unittest.TestCase):
                 ("dtof_scan_bypass.sv", 1, "(INPUTS + WIDTH - 1) / WIDTH", "INPUTS / WIDTH"),
                 ("dtof_scan_bypass.sv", 2, "folded = folded ^ filled", "folded = folded | filled"),
                 ("dtof_scan_bypass.sv", 1, "scan_i ? folded_q : macro_rdata_i", "macro_rdata_i"),
-                ("dtof_sram_1rw.sv", 1, "{en_i, we_i, addr_i, wdata_i}", "{en_i, en_i, addr_i, wdata_i}"),
+                ("dtof_sram_1rw.sv", 1, "{en_i, we_i, addr_i, wparts_i, wdata_i}", "{en_i, en_i, addr_i, wparts_i, wdata_i}"),
                 ("dtof_sram_1rw.sv", 1, "en_i && !scan", "en_i"),
                 ("dtof_sram_1r1w.sv", 2, "we_i && !scan", "we_i"),
                 ("dtof_sram_1r1w.sv", 2, "{re_i, we_i, raddr_i, waddr_i, wdata_i}", "{re_i, we_i, waddr_i, waddr_i, wdata_i}")):  # fmt: skip

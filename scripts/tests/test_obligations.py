@@ -74,7 +74,8 @@ module breaches;
   reg read = 0, write = 0;
   reg [1:0] read_at = 0, write_at = 0;
   dtof_sram #(.PORTS(1), .DEPTH(3), .WIDTH(4)) u_sram (
-      .clk_i(clk), .rst_ni(rst_n), .cfg_i('0), .read_en_i(read), .read_addr_i(read_at), .write_en_i(write), .write_addr_i(write_at), .write_data_i(4'd5));
+      .clk_i(clk), .rst_ni(rst_n), .cfg_i('0), .read_en_i(read), .read_addr_i(read_at), .write_en_i(write), .write_addr_i(write_at),
+      .write_parts_i(1'b1), .write_data_i(4'd5));
   initial begin
     repeat (3) @(negedge clk);
     rst_n = 1;

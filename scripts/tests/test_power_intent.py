@@ -23,7 +23,8 @@ READOUTS = {name: int(number) for name, number in re.findall(
 FAULTS = {  # file, text, replacement, with a prior, what is said
     "an output without isolation": ("array", "-applies_to outputs", "-applies_to inputs", True, "port u_gated_array.g_pool.u_array.busy_o: 0 isolations"),
     "a memory's write enable without isolation": (
-        "array", "{read_en_i read_addr_i write_en_i write_addr_i write_data_i}", "{read_en_i read_addr_i write_addr_i write_data_i}", True,
+        "array", "{read_en_i read_addr_i write_en_i write_addr_i write_parts_i write_data_i}",
+        "{read_en_i read_addr_i write_addr_i write_parts_i write_data_i}", True,
         "u_sram.write_en_i: 0 isolations"),
     "a wrong clamp": ("array", "-applies_to outputs -clamp_value 0", "-applies_to outputs -clamp_value 1", True, "busy_o: clamp 1, but 0 between frames"),
     "the side band clamped like the others": ("array", "{sram_cfg_o} -clamp_value 1", "{sram_cfg_o} -clamp_value 0", True, "clamp 0, but 1 between"),
