@@ -71,6 +71,14 @@ class MarchTest(unittest.TestCase):
                     fault = {"kind": STUCK, "address": depth - 1, "bit": width - 1, "value": value}
                     self.assertTrue(self.verdict(fault).startswith("bad"), fault)
 
+    def test_a_write_mask_that_the_test_does_not_open_is_found(self) -> None:
+        path = self.mbist / "dtof_sram_1rw.sv"
+        text = path.read_text(encoding="utf-8")
+        self.assertEqual(text.count("wparts_i | {PARTS{test}}"), 1)
+        path.write_text(text.replace("wparts_i | {PARTS{test}}", "wparts_i"), encoding="utf-8")
+        self.build("march_test_bench", DEPTH=DEPTH, WIDTH=WIDTH, PORTS=1)
+        self.assertTrue(self.verdict().startswith("bad"))
+
     def test_changed_tests_miss_faults(self) -> None:
         drawn = faults(60, seed=3)
         up = (("assign down = (element_q == 3'd3) || (element_q == 3'd4);", "assign down = 1'b0;"),
