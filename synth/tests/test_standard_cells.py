@@ -72,6 +72,16 @@ class StandardCells(unittest.TestCase):
                 compared += 1
         self.assertGreater(compared, 20)
 
+    @unittest.skipUnless(NANGATE.exists(), "../shared/pdk is not present")
+    def test_clock_gates_have_nangates_loads_and_at_least_nearly_its_areas(self) -> None:
+        theirs = {cell.name: cell for cell in liberty.read(NANGATE).children("cell")}
+        for drive, ff in standard_cells.GATE_CK_FF.items():
+            ours, other = standard_cells.clock_gate(drive, TYPICAL), theirs[f"CLKGATE_X{drive}"]
+            clock = next(pin for pin in other.children("pin") if pin.name == "CK")
+            self.assertAlmostEqual(ff, clock.number("capacitance") * 40 / 45, delta=0.01, msg=ours.name)
+            ratio = ours.number("area") / (other.number("area") * 0.79)
+            self.assertTrue(0.98 < ratio < 1.13, f"{ours.name}: {ratio}")
+
 # Stages of a path by hand: parasitic delay, logical effort of the input, drive. `k`: drive of the cell; `i`: of its inner stage.
 def stages(name: str, output: str, pin: str) -> list[tuple[float, float, float]]:
     kind, k = name.split("_X")[0], int(name.split("_X")[1])
