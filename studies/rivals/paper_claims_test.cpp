@@ -102,7 +102,7 @@ TEST(PaperClaims, EachHasAFigureAndAVerdict) {
     EXPECT_GT(ratio, 0.8) << scene.name;
     EXPECT_LT(ratio, 1.3) << scene.name;
   }
-  EXPECT_EQ(found.claims.size(), 19U);
+  EXPECT_EQ(found.claims.size(), 20U);
   for (const PaperClaim& claim : found.claims) {
     for (const std::string& text : {claim.paper, claim.claim, claim.test, claim.figure}) {
       EXPECT_FALSE(text.empty());
@@ -119,6 +119,7 @@ TEST(PaperClaims, EachHasAFigureAndAVerdict) {
   EXPECT_EQ(verdict("Precision below one centimetre"), ClaimVerdict::kHolds);
   EXPECT_EQ(verdict("An average of timestamps"), ClaimVerdict::kHolds);
   EXPECT_EQ(verdict("A spiking network"), ClaimVerdict::kInPart);
+  EXPECT_NE(verdict("Codes that are optimised together"), ClaimVerdict::kFails);
 }
 
 TEST(PaperClaims, LargerSketchesAreMoreExact) {

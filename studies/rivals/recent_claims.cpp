@@ -27,6 +27,7 @@
 #include "dtof/rival/optimised_code.hpp"
 #include "dtof/rival/pulse_shape.hpp"
 #include "rivals/flux_photons.hpp"
+#include "rivals/joint_claim.hpp"
 
 namespace dtof {
 namespace {
@@ -399,9 +400,13 @@ PaperClaim legendre_memory_beside_the_centre_of_mass(const PaperClaimSettings& s
 }  // namespace
 
 std::vector<PaperClaim> judge_recent_claims(const PaperClaimSettings& settings) {
-  return {average_without_pile_up(settings),       early_reports(settings),
-          probability_of_a_raw_peak(settings),     free_running_boundaries(settings),
-          codes_beside_swept_histograms(settings), legendre_memory_beside_the_centre_of_mass(settings)};
+  return {average_without_pile_up(settings),
+          early_reports(settings),
+          probability_of_a_raw_peak(settings),
+          free_running_boundaries(settings),
+          codes_beside_swept_histograms(settings),
+          codes_with_the_laser(settings),
+          legendre_memory_beside_the_centre_of_mass(settings)};
 }
 
 }  // namespace dtof

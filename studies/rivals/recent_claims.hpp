@@ -7,8 +7,9 @@
 
 namespace dtof {
 
-/// The claims of papers since 2023 on strong light and early reports; judge_paper_claims() has them last.
-/// Each test states its own photons (rivals/flux_photons.hpp, common/independent_photons.hpp).
+/// The claims of papers since 2023 on strong light, early reports and codes that include the laser;
+/// judge_paper_claims() has them last. Each test states its own photons (rivals/flux_photons.hpp,
+/// rivals/joint_code.hpp, common/independent_photons.hpp).
 std::vector<PaperClaim> judge_recent_claims(const PaperClaimSettings& settings);
 
 }  // namespace dtof
