@@ -50,6 +50,12 @@ void CubeOptions::add_to(CLI::App& group) {
       ->check(above_zero());
 }
 
+void CubeOptions::check() const {
+  if (file.empty() && (bin_width_s || start_s || events_per_unit)) {
+    throw InputError("--cube-bin-width, --cube-start and --cube-scale need --cube");
+  }
+}
+
 OwnMap read_own_cube(const CubeOptions& options, const SensorModel& sensor, int columns, int rows,
                      double reflectivity) {
   const TransientFile file = read_transient_file(options.file);

@@ -19,6 +19,8 @@ struct CubeOptions {
 
   /// Adds --cube and the options of its scale.
   void add_to(CLI::App& group);
+  /// Throws InputError for options of a scale without a cube.
+  void check() const;
 };
 
 /// Reads the cube and resamples it to columns x rows by nearest neighbour. Options win over what the file

@@ -59,9 +59,7 @@ void FrameScene::check(const CLI::App& command) const {
   if (!maps.depth.empty() && !cube.file.empty()) {
     throw InputError("--depth and --cube contradict each other: choose one");
   }
-  if (cube.file.empty() && (cube.bin_width_s || cube.start_s || cube.events_per_unit)) {
-    throw InputError("--cube-bin-width, --cube-start and --cube-scale need --cube");
-  }
+  cube.check();
   if (maps.depth.empty() && map_scales.metres_per_unit) {
     throw InputError("--depth-scale needs --depth");
   }

@@ -12,6 +12,7 @@
 #include "accuracy/accuracy_tables.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "command_line/own_cube.hpp"
 #include "command_line/own_map.hpp"
 #include "common/commands.hpp"
 #include "common/map_accuracy.hpp"
@@ -44,6 +45,7 @@ struct AccuracyOptions {
   std::optional<double> reflectivity;
   MapFiles maps;
   MapScales map_scales;
+  CubeOptions cube;
   std::string out = "build/accuracy";
   std::string command_line;
 };
@@ -293,12 +295,29 @@ Table band_csv(const std::vector<BandAccuracy>& rows) {
   return table;
 }
 
-/// With --depth: errors by distance band over the user's map. `command` tells which options were given.
+/// The user's map or transient cube.
+OwnMap read_own_scene(const AccuracyOptions& options, const StudySettings& sweep) {
+  const SensorModel& sensor = sweep.sensor;
+  if (options.cube.file.empty()) {
+    OwnMap map =
+        read_own_map(options.maps, options.map_scales, sensor.columns, sensor.rows, sweep.reflectivity);
+    require_reachable(map.targets, sensor, options.maps.depth, true);
+    return map;
+  }
+  OwnMap cube = read_own_cube(options.cube, sensor, sensor.columns, sensor.rows, sweep.reflectivity);
+  require_reachable(cube.targets, sensor, options.cube.file);
+  cube.description += " A pixel's distance is that of its strongest return.";
+  return cube;
+}
+
+/// With --depth or --cube: errors by distance band over the user's scene. `command` tells which options were
+/// given.
 void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
   for (const char* option : {"--precision", "--rare-outliers", "--max-frames", "--reject",
                              "--calibration-seed", "--calibration-frames"}) {
     if (command.count(option) > 0) {
-      throw InputError(fmt::format("accuracy: {} does not apply to a map (--depth)", option));
+      throw InputError(
+          fmt::format("accuracy: {} does not apply to a scene of your own (--depth, --cube)", option));
     }
   }
   if (!options.maps.reflectivity.empty() && options.reflectivity) {
@@ -307,9 +326,7 @@ void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
   AccuracyOptions without_distances = options;
   without_distances.distances_m.clear();  // the map has its own
   const StudySettings sweep = settings_of(without_distances);
-  OwnMap map = read_own_map(options.maps, options.map_scales, sweep.sensor.columns, sweep.sensor.rows,
-                            sweep.reflectivity);
-  require_reachable(map.targets, sweep.sensor, options.maps.depth, true);
+  OwnMap map = read_own_scene(options, sweep);
   MapAccuracySettings settings;
   settings.sensor = sweep.sensor;
   settings.targets = std::move(map.targets);
@@ -369,7 +386,7 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command
       ->add_option("-d,--distances", options->distances_m,
-                   "distances in m; with --depth the edges of the bands (default: ten equal ones)")
+                   "distances in m; with --depth or --cube the edges of the bands (default: ten equal ones)")
       ->capture_default_str();
   command
       ->add_option("-n,--frames", options->frames,
@@ -411,6 +428,7 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
       "PFM or NPY), resampled to the sensor's pixels by nearest neighbour");
   map->add_option("--reflectivity-map", options->maps.reflectivity, "PNG, PFM or NPY of --depth");
   options->map_scales.add_to(*map);
+  options->cube.add_to(*map);
   options->sensor.add_sensor_to(*command);
   options->readout.add_to(*command);
   add_run_options(*command, options->run);
@@ -425,11 +443,18 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
     if (options->run.columns != "all" || options->run.rows != "all" || !options->run.trace.empty()) {
       throw InputError("accuracy: --columns, --rows and --trace do not apply, every frame is read out");
     }
+    if (!options->maps.depth.empty() && !options->cube.file.empty()) {
+      throw InputError("--depth and --cube contradict each other: choose one");
+    }
+    options->cube.check();
     if (!options->maps.depth.empty()) {
       run_over_map(*options, *command);
     } else if (!options->maps.reflectivity.empty() || options->map_scales.metres_per_unit ||
                options->map_scales.reflectivity_per_unit) {
       throw InputError("accuracy: --reflectivity-map, --depth-scale and --reflectivity-scale need --depth");
+    } else if (!options->cube.file.empty()) {
+      refuse_without_effect(*command, "--reflectivity", "a transient cube has its own light");
+      run_over_map(*options, *command);
     } else {
       run_accuracy_command(*options);
     }

@@ -214,9 +214,45 @@ TEST_F(Programs, AccuracyOverAMapIsByDistanceBand) {
   for (const char* band : {"1.0000,2.0000,16000,4", "2.0000,3.0000,16000,4", "1.0000,3.0000,32000,4"}) {
     EXPECT_THAT(csv, HasSubstr(fmt::format("\n14,hispointer,{},", band)));
   }
-  expect_refused(accuracy + "--precision 5 --out out", "--precision does not apply to a map");
+  expect_refused(accuracy + "--precision 5 --out out", "--precision does not apply to a scene of your own");
   expect_refused(accuracy + "--distances 3 2 --out out", "ascending edges");
   expect_refused("accuracy --depth-scale 2 --out out", "need --depth");
+}
+
+// One column of the cube has a target at 1.5 m, the other one at 3 m behind a weaker return at 1.5 m.
+TEST_F(Programs, AccuracyOverATransientCubeIsByDistanceBand) {
+  std::vector<double> events(800, 0.0);
+  events[100] = events[600] = 0.06;
+  events[500] = 0.02;
+  write_npy(path("cube.npy"), std::array<std::size_t, 3>{1, 2, 400}, events);
+  const std::string accuracy = "accuracy -r coarsehistogram -a 300 -k 0 --cube cube.npy ";
+  const Outcome outcome =
+      dtof(accuracy + "--cube-bin-width 100e-12 --distances 1 2 4 --frames 4 --out cube --json 2> text");
+  ASSERT_EQ(outcome.exit_code, 0) << read_file(path("text"));
+  const std::string text = read_file(path("cube/accuracy.md"));
+  EXPECT_THAT(text, HasSubstr("2 x 1 pixels, resampled to 200 x 160 by nearest neighbour"));
+  EXPECT_THAT(text, HasSubstr("A pixel's distance is that of its strongest return."));
+  const std::string csv = read_file(path("cube/accuracy.csv"));
+  for (const char* band : {"1.0000,2.0000,16000,4", "2.0000,4.0000,16000,4", "1.0000,4.0000,32000,4"}) {
+    EXPECT_THAT(csv, HasSubstr(fmt::format("\n0,coarsehistogram,{},", band)));
+  }
+  // Bin 100 is at 1.5 m, and nearly no pixel is more than 10 % off.
+  const std::size_t line = csv.find("\n0,coarsehistogram,1.0000,4.0000,");
+  ASSERT_NE(line, std::string::npos);
+  const std::string last = csv.substr(line + 1, csv.find('\n', line + 1) - line - 1);
+  std::vector<std::string> cells;
+  for (std::size_t begin = 0; begin <= last.size();) {
+    const std::size_t end = std::min(last.find(',', begin), last.size());
+    cells.push_back(last.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  ASSERT_EQ(cells.size(), 18U) << last;
+  EXPECT_LT(std::stod(cells[15]), 1.0) << last;
+  expect_refused(accuracy + "--out out", "needs the width of its bins");
+  expect_refused(accuracy + "--cube-bin-width 1e-10 --fidelity fast --out out", "exact");
+  expect_refused(accuracy + "--cube-bin-width 1e-10 --reflectivity 0.5 --out out", "its own light");
+  expect_refused(accuracy + "--depth depth.npy --out out", "contradict each other");
+  expect_refused("accuracy --cube-scale 2 --out out", "need --cube");
 }
 
 TEST_F(Programs, WalkWritesItsReportAndPicture) {
