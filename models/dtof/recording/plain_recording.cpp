@@ -52,13 +52,14 @@ RecordedData open_tmf8829(const RecordingOptions& options, const RecordingFile& 
           .data = tmf8829_cube(log, 0.0, options.file)};
 }
 
-RecordedData open_stream(const RecordingOptions& options, const RecordingFile& file) {
-  RecordedStream stream = parse_stream_csv(options.file, file.contents,
-                                           {.np = options.resampling.np,
-                                            .slots = options.resampling.slots,
-                                            .columns = options.columns,
-                                            .rows = options.rows,
-                                            .acquisitions = options.acquisitions});
+RecordedData open_stream(const std::filesystem::path& path, const RecordingOptions& options,
+                         const RecordingFile& file) {
+  LineReader lines = file.contents.empty() ? LineReader(path) : LineReader(path, file.contents);
+  RecordedStream stream = read_stream_csv(lines, {.np = options.resampling.np,
+                                                  .slots = options.resampling.slots,
+                                                  .columns = options.columns,
+                                                  .rows = options.rows,
+                                                  .acquisitions = options.acquisitions});
   std::string description = fmt::format("recorded stream, {} detections", stream.detection_count());
   return {.description = std::move(description), .data = std::move(stream)};
 }
@@ -81,7 +82,7 @@ bool is_plain_recording(std::string_view format) {
 RecordedData open_plain_recording(const std::filesystem::path& path, const RecordingOptions& options,
                                   const RecordingFile& file) {
   if (file.format == "csv") {
-    return open_stream(options, file);
+    return open_stream(path, options, file);
   }
   if (file.format == "picoquant") {
     return open_picoquant(path, file);

@@ -12,9 +12,9 @@ namespace dtof {
 /// sensors and time tags. These can be read from memory alone.
 bool is_plain_recording(std::string_view format);
 
-/// Parses a recording of a plain format. `path`: the file of `options.file`, which is opened only for a log
-/// of lines or time tags without `file.contents`. Throws InputError that names the file (and line) and the
-/// error.
+/// Parses a recording of a plain format. `path`: the file of `options.file`, which is opened only if
+/// `file.contents` is empty: for a log or a stream of lines, and for time tags. Throws InputError that names
+/// the file (and line) and the error.
 RecordedData open_plain_recording(const std::filesystem::path& path, const RecordingOptions& options,
                                   const RecordingFile& file);
 

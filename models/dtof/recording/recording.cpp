@@ -40,17 +40,20 @@ void forget_truth_without_photons(const HistogramCube& cube, std::vector<double>
   }
 }
 
-/// Format of a log that is read line by line from its file; empty for another file, and for a pipe whose
-/// contents decide.
-std::string line_log_format(const RecordingOptions& options, const std::filesystem::path& path) {
+/// Format of a log or stream that is read line by line from its file; empty for another file, and for a pipe
+/// whose contents decide.
+std::string line_format(const RecordingOptions& options, const std::filesystem::path& path) {
   const std::string& asked = options.format;
-  if (asked == "tmf8821" || asked == "tmf8828" || asked == "vl53l8ch") {
+  if (asked == "csv" || asked == "tmf8821" || asked == "tmf8828" || asked == "vl53l8ch") {
     return asked;
   }
   if (asked != "auto" && asked != "tmf8820") {
     return "";
   }
   const std::string start = file_start(path, kStartOfRecording);
+  if (asked == "auto" && !start.empty() && find_recording_format(path.string(), start) == "csv") {
+    return "csv";
+  }
   const std::string found = format_of_contents(start);
   const bool lines = found == "vl53l8ch" || (found == "tmf8820" && first_character(start) != '[');
   return lines && (asked == "auto" || asked == found) ? found : "";
@@ -122,7 +125,7 @@ RecordingFile read_recording(const RecordingOptions& options) {
     file.format = "picoquant";
     return file;
   }
-  if (std::string format = line_log_format(options, path); !format.empty()) {
+  if (std::string format = line_format(options, path); !format.empty()) {
     file.format = std::move(format);
     return file;
   }
@@ -132,10 +135,8 @@ RecordingFile read_recording(const RecordingOptions& options) {
     return file;
   }
   std::string packed = read_file(path);
-  // A frame as text is longer than what other files may unpack to.
-  const bool stream = options.format == "csv" || name_ends(path.string(), ".csv.gz");
   if (packed.starts_with("\x1f\x8b")) {
-    file.contents = unpack_gzip(path, std::move(packed), stream ? kLongestFile : kLongestUnpacked);
+    file.contents = unpack_gzip(path, std::move(packed));
   } else {
     file.contents = std::move(packed);
   }

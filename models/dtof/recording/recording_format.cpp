@@ -19,12 +19,13 @@ struct NameEnding {
   const char* format;
 };
 
-}  // namespace
-
+/// Whether the name ends with `ending`, in upper or lower case; `ending` is in lower case.
 bool name_ends(std::string name, std::string_view ending) {
   std::ranges::transform(name, name.begin(), [](unsigned char letter) { return std::tolower(letter); });
   return name.ends_with(ending);
 }
+
+}  // namespace
 
 char first_character(std::string_view contents) {
   const std::string_view text = without_byte_order_mark(contents);

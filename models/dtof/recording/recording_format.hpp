@@ -18,9 +18,6 @@ std::string format_of_contents(std::string_view contents);
 /// As format_of_contents, else by the ending of the name; empty for an unknown kind of file.
 std::string find_recording_format(const std::string& name, std::string_view contents);
 
-/// Whether the name ends with `ending`, in upper or lower case; `ending` is in lower case.
-bool name_ends(std::string name, std::string_view ending);
-
 /// First character of a text that is no blank; a blank if there is none.
 char first_character(std::string_view contents);
 
