@@ -24,7 +24,8 @@ PHOTON_TIMES := $(SHARED_DATA)/shin2016_two_layer_photon_times.mat \
   --surfaces $(SHARED_DATA)/shin2016_two_layer_obj.mat --shift -20
 
 # What make real-data has the data of, published together: they are one entry of reports/reports.toml.
-REAL_DATA := $(strip $(if $(wildcard $(SHARED_DATA)/ams_tmf8829_log.json.gz),tmf8829) \
+TMF8820 := $(SHARED_DATA)/sifferman_tmf8820_distance_data.json
+REAL_DATA := $(strip $(if $(wildcard $(TMF8820)),tmf8820_plane) $(if $(wildcard $(SHARED_DATA)/ams_tmf8829_log.json.gz),tmf8829) \
   $(if $(wildcard $(SHARED_DATA)/shin2016_two_layer_photon_times.mat),photon_times photon_times_behind))
 
 # The committed report has the maps, too: without them it stays as it is.
@@ -150,6 +151,10 @@ video: build
 
 real-data: study-program
 	@scripts/reports.py begin real_data
+	@if [ -f $(TMF8820) ]; then \
+	  $(DTOF_STUDY) measured $(TMF8820) --shift 2 --photons $(if $(SMALL),300,2000 500) \
+	    --background $(if $(SMALL),0,0 0.15) --seed $(SEED) --out $(OUT)/tmf8820_plane; \
+	else echo "TMF8820 captures are not here ($(SHARED_DATA)): skipped"; fi
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \
 	  $(DTOF_STUDY) measured $(SHARED_DATA)/ams_tmf8829_log.json.gz --photons $(if $(SMALL),300,2000 750 300) \
 	    --background $(if $(SMALL),0,0 0.15) --frames $(if $(SMALL),1,4) --seed $(SEED) --out $(OUT)/tmf8829; \

@@ -9,10 +9,12 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "command_line/recording_options.hpp"
 #include "command_line/truth_map.hpp"
 #include "commands/commands.hpp"
 #include "commands/json_result.hpp"
@@ -40,7 +42,7 @@ struct ReplayOptions {
   RunSettings run;
   RecordingOptions recording;
   double shift_ns = 0.0;
-  double bin_width_ps = 0.0;
+  std::optional<double> bin_width_ps;
   double tick_ps = 8.0;
   double t_int_ns = 45.0;
   std::optional<double> photons;
@@ -264,21 +266,7 @@ void check_recording_options(const CLI::App& command, const std::string& format)
       refuse_without_effect(command, option, "only a TDC stream (CSV) lacks the size of its array");
     }
   }
-  if (format == "csv" || format == "picoquant" || format == "photon-hdf5" || format == "tmf8829") {
-    refuse_without_effect(command, "--bin-width", "only arrays, TMF8820 and VL53L8CH lack it");
-  }
-  if (format != "mat" && format != "hdf5") {
-    for (const char* option : {"--tick", "--variable"}) {
-      refuse_without_effect(command, option, "only MATLAB files have one");
-    }
-  }
-}
-
-/// What --format may be.
-std::vector<std::string> recording_formats() {
-  std::vector<std::string> formats = {"auto"};
-  formats.insert(formats.end(), kRecordingFormats.begin(), kRecordingFormats.end());
-  return formats;
+  refuse_recording_options(command, format);
 }
 
 /// Distance whose light, there and back, still falls into T_int, m.
@@ -375,8 +363,8 @@ void run_replay_command(const ReplayOptions& options, RecordingFile file, JsonRe
   }
   RecordingOptions recording_options = options.recording;
   recording_options.tick_s = options.tick_ps * 1e-12;
-  if (options.bin_width_ps > 0.0) {
-    recording_options.bin_width_s = options.bin_width_ps * 1e-12;
+  if (options.bin_width_ps) {
+    recording_options.bin_width_s = *options.bin_width_ps * 1e-12;
   }
   Resampling& resampling = recording_options.resampling;
   resampling.np = readouts.front().np;
@@ -450,9 +438,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
       ->add_option("file", options->recording.file,
                    "recording; an array of an archive is file.npz:name, file.h5:/group/name or file.mat:name")
       ->required();
-  command->add_option("--format", options->recording.format, "kind of file")
-      ->check(CLI::IsMember(recording_formats()))
-      ->capture_default_str();
+  add_recording_options(*command, options->recording, options->bin_width_ps, options->tick_ps);
   command->add_option("-a,--acquisitions", options->recording.acquisitions,
                       "laser pulses per frame (default: CSV: the last one recorded, else 3333)");
   command
@@ -470,11 +456,6 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
   command->add_option("--shift", options->shift_ns, "measured data: ns to add to every time")
       ->capture_default_str();
   command->add_option("--t-int", options->t_int_ns, "T_int in ns; T_res = T_int / 2^NP")
-      ->capture_default_str();
-  command->add_option("--bin-width", options->bin_width_ps,
-                      "histograms of arrays, logs: width of a bin in ps");
-  command->add_option("--tick", options->tick_ps, "MAT: duration of a tick in ps")->capture_default_str();
-  command->add_option("--variable", options->recording.variable, "MAT: name of the cell array")
       ->capture_default_str();
   command->add_option(
       "--truth", options->truth_file,

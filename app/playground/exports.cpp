@@ -19,6 +19,7 @@
 #include "playground/advice.hpp"
 #include "playground/catalogue.hpp"
 #include "playground/phases.hpp"
+#include "playground/recorded_file.hpp"
 #include "playground/request.hpp"
 #include "playground/session.hpp"
 
@@ -32,6 +33,7 @@ std::unique_ptr<dtof::PlaygroundSession> session;
 dtof::PlaygroundFiles files;
 dtof::PlaygroundFrame frame;
 std::string sensor_line;
+std::string recording_line;
 std::vector<dtof::Detection> detections;
 std::unique_ptr<dtof::PixelTrace> trace;
 std::vector<std::uint16_t> results;
@@ -108,6 +110,11 @@ char* playground_take_recording(const char* name, int bytes, double bin_width_ps
   files.bin_width_ps = bin_width_ps;
   return files.recording.data();
 }
+/// Looks what the recording is: its line (playground_recording_line) is then in playground_recording.
+bool playground_recognise() {
+  return attempt([] { recording_line = dtof::playground_recording_line(files); });
+}
+const char* playground_recording() { return recording_line.c_str(); }
 /// Begins a scene or a recording.
 bool playground_begin(const char* request) {
   return attempt([&] {

@@ -4,7 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
 #include <range/v3/algorithm.hpp>
+#include <string>
+#include <system_error>
 
 // Random123 refuses processors that it does not know. Its code for RISC-V is portable C++.
 #define __riscv
@@ -17,6 +21,20 @@ namespace std {
 template <typename To, typename From>
 constexpr To bit_cast(const From& from) noexcept {
   return __builtin_bit_cast(To, from);
+}
+
+// The C++ library reads integers alone. The readers hand over a whole field.
+inline from_chars_result from_chars(const char* first, const char* last, double& value) {
+  const string text(first, last);
+  // strtod reads blanks, a plus sign and hexadecimal digits, too.
+  const bool legal = text.find_first_of("xX") == string::npos && text.find_first_of("+ \t\r\n") != 0;
+  char* end = nullptr;
+  const double read = legal ? strtod(text.c_str(), &end) : 0.0;
+  if (!legal || end == text.c_str()) {
+    return {first, errc::invalid_argument};
+  }
+  value = read;
+  return {first + (end - text.c_str()), errc()};
 }
 
 }  // namespace std

@@ -1,51 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <limits>
-#include <numeric>
 #include <utility>
 
-#include "dtof/core/error.hpp"
-#include "dtof/io/npy.hpp"
-#include "dtof/recording/histogram_stream.hpp"
-#include "dtof/recording/stream_csv.hpp"
 #include "playground/photons.hpp"
+#include "playground/recorded_file.hpp"
 #include "playground/session.hpp"
 
 namespace dtof {
 namespace {
 
-/// Throws InputError if photons were measured, but none of them within T_int.
-void require_photons_in_range(const HistogramStream& stream, const std::string& name, double range_s) {
-  std::vector<int> columns(static_cast<std::size_t>(stream.columns()));
-  std::iota(columns.begin(), columns.end(), 0);
-  const PhotonCount photons = stream.count_photons(columns, {0, stream.rows()});
-  if (photons.all > 0 && photons.outside == photons.all) {
-    throw InputError(fmt::format("{}: all {} photons are outside the range, 0 to {:g} ns", name, photons.all,
-                                 range_s * 1e9));
-  }
-}
-
 /// The recording as `dtof replay` replays it.
 std::unique_ptr<StreamSource> open(const PlaygroundRequest& request, const PlaygroundFiles& files,
                                    const SensorModel& sensor) {
-  const std::string& name = files.recording_name;
-  if (!files.recording.starts_with("\x93NUMPY")) {
-    return std::make_unique<RecordedStream>(
-        parse_stream_csv(name, files.recording, {.np = sensor.np, .slots = sensor.slots}));
-  }
-  if (!(files.bin_width_ps > 0.0)) {
-    throw InputError(fmt::format("{}: an NPY histogram needs the width of a bin in ps", name));
-  }
-  auto stream = std::make_unique<HistogramStream>(
-      histogram_cube(parse_npy(name, files.recording), files.bin_width_ps * 1e-12, 0.0, name),
-      Resampling{.np = sensor.np,
-                 .integration_time = sensor.integration_time_s,
-                 .acquisitions = request.acquisitions.value_or(sensor.acquisitions),
-                 .slots = sensor.slots,
-                 .seed = request.seed});
-  require_photons_in_range(*stream, name, sensor.integration_time_s);
-  return stream;
+  return open_recorded_file(files, {.np = sensor.np,
+                                    .integration_time = sensor.integration_time_s,
+                                    .time_shift = request.shift_ns * 1e-9,
+                                    .acquisitions = request.acquisitions.value_or(sensor.acquisitions),
+                                    .slots = sensor.slots,
+                                    .photon_budget = request.photons,
+                                    .seed = request.seed});
 }
 
 /// What the page's sensor means for a recording: T_int, NP and SLOTS. As in `dtof replay`, all else is that

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "dtof/core/error.hpp"
+#include "dtof/recording/resampling.hpp"
 #include "playground/advice.hpp"
 
 namespace dtof {
@@ -42,6 +43,7 @@ std::uint64_t whole(const std::string& name, const std::string& text, std::uint6
 void set(PlaygroundRequest& request, const std::string& name, const std::string& value) {
   constexpr double kFarthest = 100.0;
   constexpr double kNearest = 0.01;
+  constexpr double kLongestShift = 1e6;
   if (name == "sensor") {
     request.sensor = value;
   } else if (name == "scene") {
@@ -64,6 +66,10 @@ void set(PlaygroundRequest& request, const std::string& name, const std::string&
     request.klux = number(name, value, 0.0, 200.0);
   } else if (name == "acquisitions") {
     request.acquisitions = static_cast<std::uint32_t>(whole(name, value, 1, 65535));
+  } else if (name == "photons") {
+    request.photons = number(name, value, 0.0, kLargestPhotonNumber);
+  } else if (name == "shift") {
+    request.shift_ns = number(name, value, -kLongestShift, kLongestShift);
   } else if (name == "readout") {
     request.readouts.push_back(value);
   } else if (name == "seed") {

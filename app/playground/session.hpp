@@ -31,6 +31,8 @@ struct PlaygroundRequest {
   double klux = 14.0;
   std::optional<std::uint32_t> acquisitions;
   std::uint64_t seed = 1;
+  std::optional<double> photons;      ///< of a recording: mean number per pixel; none: all
+  double shift_ns = 0.0;              ///< of a recording: added to every time
   std::vector<std::string> readouts;  ///< names
 };
 
@@ -43,9 +45,9 @@ struct PlaygroundFiles {
   int map_rows = 0;
   std::vector<float> map_m = {};  ///< [row][column], row 0 on top; 0: unknown
   std::string recording_name = {};
-  /// Contents of a recorded TDC stream (CSV) or of histograms (NPY); empty: use the scene or depth map.
+  /// Contents of a recording (recorded_file.hpp), unpacked; empty: use the scene or depth map.
   std::string recording = {};
-  double bin_width_ps = 0.0;  ///< of the histograms
+  double bin_width_ps = 0.0;  ///< of the recording's histograms; 0: not given
 };
 
 /// Results of one read-out for a frame, row-major.

@@ -23,7 +23,7 @@ STAND_IN = """
 const createModels = async () => {
   const heap = new ArrayBuffer(1 << 20), HEAPF32 = new Float32Array(heap), HEAPU16 = new Uint16Array(heap), HEAPU32 = new Uint32Array(heap);
   const HEAPU8 = new Uint8Array(heap), HEAP32 = new Int32Array(heap);
-  let asked = {}, readout = 0, sentence = "", sensor = "", map = null, recording = null;
+  let asked = {}, readout = 0, sentence = "", sensor = "", line = "", map = null, recording = null;
   const pixels = () => asked.columns * asked.rows;
   const MAP = 5 << 16;
   const truth = (i) => !map ? 1 + 0.1 * (i % asked.columns) :
@@ -45,6 +45,14 @@ const createModels = async () => {
     sensor: () => sensor,
     take_map: (columns, rows) => { map = columns === 0 ? null : [columns, rows]; return MAP; },
     take_recording: (name, bytes, width) => { recording = bytes === 0 ? null : { name, bytes, width }; return 8 << 16; },
+    recognise: () => {
+      const first = HEAPU8[8 << 16], name = recording.name;
+      sentence = first === 0x89 ? `${name}: HDF5 is not for a page` : "";
+      line = first === 0x93 ? "npy\\t1\\tmust" : /\\.csv(\\.gz)?$/i.test(name) ? "csv\\t0\\tno" : /\\.ptu(\\.gz)?$/.test(name) ? "picoquant\\t1\\tno" :
+        /\\.json$/.test(name) ? "tmf8820\\t1\\tmay" : /\\.mat$/.test(name) && first === 77 ? "mat\\t1\\tmay" : "";
+      return sentence === "" ? 1 : 0;
+    },
+    recording: () => line,
     begin: (text) => {
       asked = Object.fromEntries(text.split("\\n").map((line) => line.split(" ")));
       sentence = Number(asked.seed) === 13 ? "13 is refused" : "";

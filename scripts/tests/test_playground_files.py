@@ -3,7 +3,9 @@
 
 import gzip
 import io
+import struct
 import unittest
+import zlib
 
 import numpy
 
@@ -12,8 +14,14 @@ from tests.playground import InPlayground, npy, png
 
 HEADER = b"acquisition,column,row,timestamp"
 MAP = npy(numpy.ones((8, 16), numpy.float32))
-NO_KNOWN_FILE = ("neither a sensor file (.toml) nor a depth map (PNG, PFM, NPY) nor a recording (.csv, .csv.gz, NPY, NPZ); `dtof convert` makes "
-                 "these of other files")
+NO_KNOWN_FILE = ("neither a sensor file (.toml) nor a depth map (PNG, PFM, NPY) nor a recording (CSV, NPY, NPZ, MAT, PTU, HT3, HT2, logs of TMF8820, "
+                 "TMF8821, TMF8828, TMF8829, VL53L8CH); `dtof convert` makes these of other files")
+MAT = b"MATLAB 5.0 MAT-file".ljust(128)
+
+
+def packed(*elements: bytes) -> bytes:
+    """A MATLAB file whose variables are packed, as `save -v7` writes it."""
+    return MAT + b"".join(struct.pack("<II", 15, len(data)) + data for data in map(zlib.compress, elements))
 
 
 def npz(**arrays: numpy.ndarray) -> bytes:
@@ -48,6 +56,9 @@ REFUSED: tuple[tuple[str, bytes, str], ...] = (
     ("x.png", claims(4096, 4096), "a damaged PNG"),
     ("x.png", claims(1, 1), "a damaged PNG"),
     ("x.npz", npz(a=numpy.ones(2), b=numpy.ones(2)), 'an NPZ without an array "histograms"'),
+    ("x.h5", b"\x89HDF\r\n\x1a\n", "HDF5 is not for a page"),
+    ("x.mat", packed(bytes(80))[:-3] + b"abc", "damaged: the variable at byte 128 does not decompress"),
+    ("x.ptu.gz", gzip.compress(b"PQTTTR\0\0")[:-9], "damaged gzip data"),
 )
 
 

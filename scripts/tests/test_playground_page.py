@@ -8,6 +8,7 @@ import io
 import tempfile
 import time
 import unittest
+import zlib
 from pathlib import Path
 
 import numpy
@@ -296,6 +297,38 @@ class InTheBrowser(InPlayground):
         self.drop(("map.npy", npy(numpy.ones((8, 16), numpy.float32))))  # a map takes the recording's place
         self.assertEqual(self.state(), "done", self.status())
         self.assertIn("--depth map.npy", self.command())
+
+    def test_time_tags_logs_and_photon_times_are_recordings(self) -> None:
+        tail = "--acquisitions 100 --seed 1 --t-int 45 --np 10 --slots 2 --readout all"
+        header, element = b"MATLAB 5.0 MAT-file".ljust(128), b"\x0e\0\0\0\x08\0\0\0photons!"
+        deflated = zlib.compress(element)
+        packed = header + b"".join(number.to_bytes(4, "little") for number in (15, len(deflated))) + deflated
+        for name, content, unpacked in (("tags.ptu", b"PQTTTR\0\0", None), ("tags.ptu.gz", gzip.compress(b"PQTTTR\0\0"), b"PQTTTR\0\0"),
+                                        ("log.json", b"[{}]", None), ("times.mat", packed, header + element),
+                                        ("plain.mat", header + element, None)):
+            with self.subTest(name=name):
+                self.show()
+                self.drop((name, content))
+                self.assertEqual(self.state(), "done", self.status())
+                self.assertEqual(self.command(), f"build/cpp/bin/dtof replay {name} {tail}")
+                given = "(async () => [...new Uint8Array(await given.recording.contents.arrayBuffer())])().then(b => { window.bytes = b; })"
+                self.browser.evaluate(given)
+                self.wait_for("window.bytes")
+                self.assertEqual(bytes(self.browser.evaluate("window.bytes")), unpacked or content)
+                self.assertFalse(self.browser.evaluate("form.acquisitions.disabled || form.seed.disabled"))
+
+    def test_a_recording_is_thinned_and_shifted(self) -> None:
+        self.show()
+        self.browser.evaluate("form.photons.value = '500'; form.shift.value = '-2.5'; form['bin-width'].value = '90'")
+        for name, content, width in (("log.json", b"[{}]", "--bin-width 90 "), ("tags.ptu", b"PQTTTR\0\0", "")):
+            self.drop((name, content))
+            self.assertEqual(self.state(), "done", self.status())
+            self.assertEqual(self.command(), f"build/cpp/bin/dtof replay {name} {width}--photons 500 --shift -2.5 --acquisitions 100 --seed 1 "
+                                             "--t-int 45 --np 10 --slots 2 --readout all")
+            self.assertIn("photons 500\nshift -2.5\nacquisitions 100", self.browser.evaluate("request().text"))
+        self.drop(("a.csv", b"acquisition\n\x07"))  # a TDC stream is replayed as it was recorded
+        self.assertEqual(self.state(), "done", self.status())
+        self.assertNotIn("--photons", self.command())
 
     def test_a_recording_that_cannot_be_read_has_its_sentence(self) -> None:
         for name, content, sentence in (("x.csv", b"!", "x.csv:1: wrong"), ("x.csv.gz", gzip.compress(b""), "x.csv.gz: empty"),

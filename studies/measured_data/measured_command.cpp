@@ -10,11 +10,14 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "command_line/recording_options.hpp"
 #include "command_line/truth_map.hpp"
 #include "common/commands.hpp"
 #include "common/readout_variant.hpp"
@@ -25,6 +28,7 @@
 #include "dtof/io/output_folder.hpp"
 #include "dtof/metrics/depth.hpp"
 #include "dtof/metrics/error_statistics.hpp"
+#include "dtof/recording/recording.hpp"
 #include "dtof/report/colour_png.hpp"
 #include "dtof/report/table.hpp"
 #include "measured_data/measured_scene.hpp"
@@ -36,12 +40,14 @@ namespace dtof {
 namespace {
 
 struct MeasuredOptions {
-  std::string file;
+  RecordingOptions recording;
   std::string surfaces_file;
   std::string truth_file;
   std::optional<double> truth_scale;
   double from_tick = 0.0;
   double tick_ps = 8.0;
+  std::optional<double> bin_width_ps;
+  std::optional<double> return_window_ns;
   double shift_ns = 0.0;
   double t_int_ns = 45.0;
   std::uint32_t acquisitions = 3333;
@@ -64,32 +70,44 @@ struct MeasuredOptions {
   }
 };
 
-MeasuredScene open_recorded_scene(const MeasuredOptions& options) {
+MeasuredScene open_recorded_scene(const MeasuredOptions& options, RecordingFile file) {
   if (options.surfaces_file.empty()) {
-    return tmf8829_scene(options.file);
+    RecordedSceneOptions scene{.recording = options.recording,
+                               .shift_s = options.shift_ns * 1e-9,
+                               .truth_is_given = !options.truth_file.empty()};
+    if (options.return_window_ns) {
+      scene.return_window_s = *options.return_window_ns * 1e-9;
+    }
+    scene.recording.tick_s = options.tick_ps * 1e-12;
+    if (options.bin_width_ps) {
+      scene.recording.bin_width_s = *options.bin_width_ps * 1e-12;
+    }
+    return recorded_scene(scene, std::move(file));
   }
-  return two_surfaces_scene({.photons = read_photon_times_mat(options.file),
-                             .first = read_mat_matrix(options.surfaces_file, "T_first"),
-                             .second = read_mat_matrix(options.surfaces_file, "T_second"),
-                             .tick_s = options.tick_ps * 1e-12,
-                             .shift_s = options.shift_ns * 1e-9,
-                             .from_tick = options.from_tick});
+  return two_surfaces_scene(
+      {.photons = read_photon_times_mat(options.recording.file, options.recording.variable),
+       .first = read_mat_matrix(options.surfaces_file, "T_first"),
+       .second = read_mat_matrix(options.surfaces_file, "T_second"),
+       .tick_s = options.tick_ps * 1e-12,
+       .shift_s = options.shift_ns * 1e-9,
+       .from_tick = options.from_tick});
 }
 
 /// With --truth, that map's distances are the truth, of one surface.
-MeasuredScene open_scene(const MeasuredOptions& options) {
+MeasuredScene open_scene(const MeasuredOptions& options, RecordingFile file) {
   if (options.truth_scale && options.truth_file.empty()) {
     throw InputError("--truth-scale needs --truth");
   }
-  MeasuredScene scene = open_recorded_scene(options);
+  MeasuredScene scene = open_recorded_scene(options, std::move(file));
   if (!options.truth_file.empty()) {
     scene.true_m = read_truth_map(options.truth_file, options.truth_scale, scene.columns, scene.rows,
                                   Region::whole(scene.columns, scene.rows));
     std::ranges::replace_if(
         scene.true_m, [](double metres) { return std::isnan(metres); }, 0.0);
     scene.other_m.clear();
-    scene.description += fmt::format(" The truth is the map {}.", options.truth_file);
+    scene.truth = fmt::format("The truth is the map {}.", options.truth_file);
   }
+  leave_out_beyond_range(scene, options.t_int_ns * 1e-9, options.recording.file);
   return scene;
 }
 
@@ -152,9 +170,6 @@ class MeasuredStudy {
         readouts_(options.readout.parameters(kAllReadouts)) {
     for (const ReadoutParameters& readout : readouts_) {
       titles_.push_back(variant_title(readout));
-    }
-    if (std::ranges::none_of(scene_.true_m, [](double truth) { return truth > 0.0; })) {
-      throw InputError(fmt::format("{}: no pixel has a known distance", options.file));
     }
   }
 
@@ -336,8 +351,8 @@ void write_pictures(const std::filesystem::path& folder, const MeasuredScene& sc
 
 std::string percent(double share) { return fmt::format("{:.1f}", share * 100.0); }
 
-void run_measured_command(const MeasuredOptions& options) {
-  MeasuredStudy study(options, open_scene(options));
+void run_measured_command(const MeasuredOptions& options, RecordingFile file) {
+  MeasuredStudy study(options, open_scene(options, std::move(file)));
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
   std::vector<LightResult> results;
@@ -369,15 +384,16 @@ void run_measured_command(const MeasuredOptions& options) {
     }
   }
   std::string report = fmt::format(
-      "# {}\n\n{} Thinned to the photons named (mean of a pixel and frame) and resampled to {} acquisitions "
+      "# {}\n\n{} {} Thinned to the photons named (mean of a pixel and frame) and resampled to {} "
+      "acquisitions "
       "of "
       "{:g} ns, {} bits, {} frames of each light; background: events added per acquisition (preset `thesis`: "
       "0.15 "
       "at 14 klux, 0.54 at 50). Each read-out's constant offset, its median difference to truth in the first "
       "light, is "
       "taken away. Seed {}.\n",
-      study.scene().title, study.scene().description, options.acquisitions, options.t_int_ns,
-      study.timestamp_bits(), options.frames, options.run.seed);
+      study.scene().title, study.scene().description, study.scene().truth, options.acquisitions,
+      options.t_int_ns, study.timestamp_bits(), options.frames, options.run.seed);
   report +=
       matrix("Per cent of pixels with an error above 3 % / 10 %:", results, titles, [](const Outcome& o) {
         return fmt::format("{} / {}", percent(o.score.all.above_3_percent),
@@ -399,6 +415,7 @@ void run_measured_command(const MeasuredOptions& options) {
   report +=
       fmt::format("\n{}\n\nCommand: `{}`\n", study.verify_rtl(results.front().light), options.command_line);
   write_file(folder / "summary.csv", csv.csv());
+  write_file(folder / "truth.csv", truth_csv(study.scene()));
   write_file(folder / "summary.md", report);
   write_pictures(folder, study.scene(), titles, results.back(), options);
   fmt::print("{}\nTables and maps are in {}\n", report, options.out);
@@ -409,10 +426,17 @@ void run_measured_command(const MeasuredOptions& options) {
 void add_measured_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<MeasuredOptions>();
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand(
-      "measured", "Read-outs compared on measured data: a TMF8829 log, or photon times of two surfaces");
-  command->add_option("file", options->file, "TMF8829 log (JSON), or with --surfaces photon times (MAT)")
+  CLI::App* command = app.add_subcommand("measured",
+                                         "Read-outs compared on a recording: histograms, photon times, time "
+                                         "tags or logs of sensors, as dtof replay "
+                                         "reads them");
+  command
+      ->add_option(
+          "file", options->recording.file,
+          "recording; an array of an archive is file.npz:name, file.h5:/group/name or file.mat:name;\n"
+          "with --surfaces photon times (MAT)")
       ->required();
+  add_recording_options(*command, options->recording, options->bin_width_ps, options->tick_ps);
   command->add_option("--surfaces", options->surfaces_file,
                       "MATLAB file with T_first and T_second, the surfaces' ticks in each pixel");
   command->add_option(
@@ -425,11 +449,12 @@ void add_measured_command(CLI::App& app, const std::string& command_line) {
                    "photon times: the first tick that counts; earlier times are dropped")
       ->check(not_negative())
       ->capture_default_str();
-  command->add_option("--tick", options->tick_ps, "photon times: duration of a tick in ps")
-      ->check(above_zero())
-      ->capture_default_str();
-  command->add_option("--shift", options->shift_ns, "photon times: ns to add to every time")
-      ->capture_default_str();
+  command->add_option("--shift", options->shift_ns, "ns to add to every time")->capture_default_str();
+  command
+      ->add_option("--return-window", options->return_window_ns,
+                   "without true distances: a pixel's distance is that of its strongest return, of the\n"
+                   "ns that hold the most of all of its photons (default: 2)")
+      ->check(above_zero());
   command->add_option("--t-int", options->t_int_ns, "T_int in ns")
       ->check(above_zero())
       ->capture_default_str();
@@ -451,12 +476,21 @@ void add_measured_command(CLI::App& app, const std::string& command_line) {
   options->readout.add_to(*command);
   add_study_options(*command, options->run.seed, options->run.threads, options->out);
   command->callback([options, command] {
+    RecordingFile file;
     if (options->surfaces_file.empty()) {
-      for (const char* option : {"--from-tick", "--tick", "--shift"}) {
-        refuse_without_effect(*command, option, "only photon times (with --surfaces) have ticks");
+      refuse_without_effect(*command, "--from-tick", "only photon times with --surfaces have a first tick");
+      file = read_recording(options->recording);
+      refuse_recording_options(*command, file.format);
+    } else {
+      for (const char* option : {"--format", "--bin-width", "--return-window"}) {
+        refuse_without_effect(*command, option,
+                              "photon times with --surfaces (MAT) have their own distances");
       }
     }
-    run_measured_command(*options);
+    if (!options->truth_file.empty()) {
+      refuse_without_effect(*command, "--return-window", "--truth has the distances");
+    }
+    run_measured_command(*options, std::move(file));
   });
 }
 

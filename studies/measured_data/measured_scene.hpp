@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dtof/core/detection.hpp"
 #include "dtof/recording/photon_times_mat.hpp"
+#include "dtof/recording/recording.hpp"
 #include "dtof/recording/resampling.hpp"
 
 namespace dtof {
@@ -16,7 +18,8 @@ namespace dtof {
 /// A recording with known distances of its pixels, from which frames are drawn.
 struct MeasuredScene {
   std::string title;
-  std::string description;  ///< sentences for a report: contents, and origin of the true distances
+  std::string description;  ///< sentences for a report: the contents
+  std::string truth;        ///< sentence for a report: origin of the true distances
   int columns = 0;
   int rows = 0;
   /// True distance in m, index = row * columns + column; 0: unknown, not judged.
@@ -28,11 +31,34 @@ struct MeasuredScene {
   std::function<std::unique_ptr<StreamSource>(const Resampling&)> frame;
 };
 
-/// Log of an ams TMF8829; the distances that the sensor reported count as true. The published log holds
-/// histograms of the sensor's row 0 only. Therefore each frame of the log becomes a column, with the zones of
-/// that row as its pixels; neighbours in a column are neighbours in the scene. Throws InputError for an
-/// unreadable log.
-MeasuredScene tmf8829_scene(const std::filesystem::path& path);
+/// Window of strongest_return if none is given, s.
+inline constexpr double kReturnWindow = 2e-9;
+
+/// How a recording becomes a scene.
+struct RecordedSceneOptions {
+  RecordingOptions recording;
+  double shift_s = 0.0;  ///< s, added to every time
+  /// s, the window of strongest_return (strongest_return.hpp); none: kReturnWindow, and the recording may
+  /// have true distances.
+  std::optional<double> return_window_s = std::nullopt;
+  bool truth_is_given = false;  ///< true: the caller knows the true distances, and none are looked for
+};
+
+/// Scene from any recording but a TDC stream: histograms, photon times, time tags, logs of sensors. The true
+/// distances are those of the recording. If the recording has none, a pixel's true distance is that of the
+/// strongest return among all of its photons, at c/2 (time + shift); a pixel without a return is unknown.
+/// The published log of a TMF8829 holds histograms of the sensor's row 0 only. Therefore each frame of such a
+/// log becomes a column, with the zones of that row as its pixels. `file` has the contents of the recording
+/// (read_recording). Throws InputError for an unreadable recording, for a TDC stream, and if no pixel has a
+/// return.
+MeasuredScene recorded_scene(const RecordedSceneOptions& options, RecordingFile file);
+
+/// Leaves out pixels whose light returns after `integration_time` (s), and says so in `truth`. Throws
+/// InputError "<name>: <reason>" if no pixel with a known distance is left.
+void leave_out_beyond_range(MeasuredScene& scene, double integration_time, const std::string& name);
+
+/// True distances as CSV: column, row, true_m, other_m; empty if unknown.
+std::string truth_csv(const MeasuredScene& scene);
 
 /// Photon times of a scene with two surfaces. Time = tick * `tick_s` + `shift_s`; distance = c/2 time.
 struct TwoSurfaces {

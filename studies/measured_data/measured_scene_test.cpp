@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measured_data/measured_scene.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <string>
 #include <vector>
 
 #include "dtof/core/error.hpp"
+#include "dtof/io/npy.hpp"
 
 namespace dtof {
 namespace {
@@ -63,6 +69,126 @@ TEST(TwoSurfacesScene, ShiftsTimesAndDistancesAlike) {
   const ColumnStream column = frame->column(1);
   // 2010 - 500 ticks of 8 ps in bins of 45 ns / 1024.
   EXPECT_EQ(std::ranges::max(column.row(0), {}, &Detection::timestamp).timestamp, 274);
+}
+
+/// Histograms of 1 ns: `counts` of each pixel of one row, as an NPY file.
+MeasuredScene scene_of(const std::vector<std::vector<double>>& pixels, RecordedSceneOptions options = {}) {
+  std::string file = npy_header("<f8", std::vector<std::size_t>{1, pixels.size(), pixels.front().size()});
+  for (const std::vector<double>& counts : pixels) {
+    for (const double count : counts) {
+      std::array<char, sizeof count> bytes{};
+      std::memcpy(bytes.data(), &count, sizeof count);
+      file.append(bytes.data(), bytes.size());
+    }
+  }
+  options.recording.file = "mine.npy";
+  options.recording.bin_width_s = 1e-9;
+  return recorded_scene(options, {.contents = file, .format = "npy"});
+}
+
+/// One photon in each of 40 bins, and a peak of two bins from `bin` on.
+std::vector<double> peak_at(std::size_t bin, double photons) {
+  std::vector<double> counts(40, 1.0);
+  counts[bin] += photons;
+  counts[bin + 1] += photons;
+  return counts;
+}
+
+constexpr double kMetresPerNs = 0.5 * 299792458.0 * 1e-9;
+
+TEST(RecordedScene, WithoutDistancesTheStrongestReturnIsTheTruth) {
+  const std::vector<double> even(40, 1.0);
+  const MeasuredScene scene = scene_of({peak_at(10, 30.0), even, peak_at(25, 20.0)});
+  EXPECT_EQ(scene.columns, 3);
+  EXPECT_EQ(scene.rows, 1);
+  EXPECT_THAT(scene.true_m,
+              ElementsAre(DoubleNear(11.0 * kMetresPerNs, 1e-9), 0.0, DoubleNear(26.0 * kMetresPerNs, 1e-9)));
+  EXPECT_EQ(scene.title, "Recording: histogram cube");
+  EXPECT_EQ(scene.truth,
+            "Truth: the strongest return of each pixel, the mean time of the photons in the 2 ns that hold "
+            "the most of "
+            "all of its photons. Pixels left out because they have no return: 1.");
+  const MeasuredScene shifted = scene_of({peak_at(10, 30.0)}, {.recording = {}, .shift_s = 5e-9});
+  EXPECT_THAT(shifted.true_m, ElementsAre(DoubleNear(16.0 * kMetresPerNs, 1e-9)));
+  Resampling resampling;
+  resampling.acquisitions = 65535;
+  EXPECT_EQ(shifted.frame(resampling)->column(0).row(0).size(), 100U);
+}
+
+TEST(RecordedScene, AnEarlierWindowEndsBeforeTheDistance) {
+  // A photon's distance is that of light on its way there and back: a window may not begin before the shot.
+  const MeasuredScene scene =
+      scene_of({peak_at(2, 30.0), peak_at(20, 30.0)}, {.recording = {}, .shift_s = -10e-9});
+  EXPECT_THAT(scene.true_m, ElementsAre(0.0, DoubleNear(11.0 * kMetresPerNs, 1e-9)));
+}
+
+TEST(RecordedScene, RefusesARecordingWithoutReturnsAndATdcStream) {
+  const std::vector<double> even(40, 1.0);
+  EXPECT_THAT(
+      [&] {
+        (void)scene_of({even, even});
+      },
+      ThrowsMessage<InputError>("mine.npy: none of its 2 pixels has a return: chance explains the number of "
+                                "photons in the fullest 2 "
+                                "ns of each (--return-window); --truth gives distances"));
+  EXPECT_TRUE(scene_of({even}, {.recording = {}, .truth_is_given = true}).true_m.empty());
+  EXPECT_THAT(
+      [] {
+        (void)recorded_scene({.recording = {.file = "mine.csv"}},
+                             {.contents = "acquisition,column,row,timestamp\n0,0,0,5\n", .format = "csv"});
+      },
+      ThrowsMessage<InputError>(
+          "mine.csv: a TDC stream is one frame as it was recorded, from which no others can be "
+          "drawn; dtof replay reads it out"));
+}
+
+TEST(RecordedScene, PixelsBeyondTheRangeAreLeftOut) {
+  MeasuredScene scene = scene_of({peak_at(10, 30.0), peak_at(35, 30.0)});
+  scene.other_m = {2.5, 3.5};
+  leave_out_beyond_range(scene, 30e-9, "mine.npy");
+  EXPECT_THAT(scene.true_m, ElementsAre(DoubleNear(11.0 * kMetresPerNs, 1e-9), 0.0));
+  EXPECT_TRUE(scene.truth.ends_with(" Pixels left out because they are beyond the range, 4.50 m: 1."));
+  EXPECT_EQ(truth_csv(scene), "column,row,true_m,other_m\n0,0,1.648859,2.500000\n1,0,,\n");
+  EXPECT_THAT([&] { leave_out_beyond_range(scene, 10e-9, "mine.npy"); },
+              ThrowsMessage<InputError>(
+                  "mine.npy: every true distance is beyond the range, 1.50 m (light there and back "
+                  "in 10 ns): --t-int changes it"));
+  EXPECT_THAT([&] { leave_out_beyond_range(scene, 10e-9, "mine.npy"); },
+              ThrowsMessage<InputError>("mine.npy: no pixel has a known distance"));
+}
+
+/// A capture of a TMF8820: 9 zones with this photon count in each bin.
+std::string capture(const std::string& distance, int count) {
+  std::string zones;
+  for (int zone = 0; zone < 9; ++zone) {
+    zones += zone == 0 ? "[" : ",[";
+    for (int bin = 0; bin < 128; ++bin) {
+      zones += fmt::format("{}{}", bin == 0 ? "" : ",", count);
+    }
+    zones += "]";
+  }
+  return fmt::format(R"({{"dist_to_plane": {}, "hists": [{}]}})", distance, zones);
+}
+
+TEST(RecordedScene, AWindowWithoutEffectIsRefused) {
+  EXPECT_THAT(
+      [] {
+        (void)recorded_scene({.recording = {.file = "a.json"}, .return_window_s = 1e-9},
+                             {.contents = "[" + capture("0.25", 3) + "]", .format = "tmf8820"});
+      },
+      ThrowsMessage<InputError>("--return-window has no effect: the recording has true distances"));
+}
+
+TEST(RecordedScene, DistancesOfTheRecordingAreTheTruthOfPixelsWithPhotons) {
+  const MeasuredScene scene = recorded_scene(
+      {.recording = {.file = "a.json"}},
+      {.contents = fmt::format("[{}, {}, {}]", capture("0.25", 3), capture("null", 3), capture("0.5", 0)),
+       .format = "tmf8820"});
+  EXPECT_EQ(scene.columns, 3);
+  EXPECT_EQ(scene.rows, 9);
+  EXPECT_EQ(scene.title, "Recording: ams TMF8820");
+  EXPECT_EQ(scene.truth, "Truth: the known distance of the plane in each capture.");
+  EXPECT_THAT(std::vector(scene.true_m.begin() + 24, scene.true_m.end()), ElementsAre(0.25, 0.0, 0.0));
 }
 
 TEST(TwoSurfacesScene, RefusesSurfacesOfAnotherSize) {

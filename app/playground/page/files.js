@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that are dropped on the page: a sensor file (TOML), a depth map (PNG of 8 or 16 bits, PFM, NPY) as `dtof frame --depth` reads it, or a
-// recording (CSV of a TDC stream, NPY or NPZ with histograms) as `dtof replay` reads it.
+// recording as `dtof replay` reads it. The page unpacks gzip, NPZ and the variables of a MATLAB file; the models read all else.
 "use strict";
 
 const LARGEST_EXTENT = 65535;  // rows and columns of a map
@@ -160,8 +160,8 @@ async function readPng(bytes) {
     values: Float64Array.from({ length: rows * columns }, (_, i) => bits === 16 ? numbers.getUint16(2 * i) : plain[i]) };
 }
 
-const NO_KNOWN_FILE = "neither a sensor file (.toml) nor a depth map (PNG, PFM, NPY) nor a recording (.csv, .csv.gz, NPY, NPZ); " +
-  "`dtof convert` makes these of other files";
+const NO_KNOWN_FILE = "neither a sensor file (.toml) nor a depth map (PNG, PFM, NPY) nor a recording (CSV, NPY, NPZ, MAT, PTU, HT3, HT2, logs of " +
+  "TMF8820, TMF8821, TMF8828, TMF8829, VL53L8CH); `dtof convert` makes these of other files";
 
 /** A depth map in metres; 0 is unknown. `scale`: metres a unit, or NaN for the format's own. */
 async function readMap(bytes, scale) {
@@ -217,31 +217,55 @@ async function readNpz(bytes) {
 /** Axes that a depth map does not have: more than rows and columns of more than one. */
 const hasBins = (bytes) => isNpy(bytes) && npyShape(npyHeader(bytes)).filter((length) => length > 1).length > 2;
 
-const NO_DETECTIONS = /^acquisition,column,row,timestamp\s*$/;
+/** A MATLAB file of version 5 whose variables are not packed: `save -v6` of the one that is given. */
+async function unpackMat(bytes) {
+  const HEADER = 128, PACKED = 15;
+  const view = new DataView(bytes.buffer, bytes.byteOffset);
+  const parts = [bytes.slice(0, HEADER)];
+  for (let at = HEADER; at < bytes.length;) {
+    const [kind, size] = at + 8 <= bytes.length ? [view.getUint32(at, true), view.getUint32(at + 4, true)] : [0, Infinity];
+    if (kind !== PACKED || at + 8 + size > bytes.length) {  // the models read it, or say what is wrong
+      parts.push(bytes.slice(at, at + 8 + size));
+    } else {
+      parts.push(await inflate(bytes.slice(at + 8, at + 8 + size), "deflate", `damaged: the variable at byte ${at} does not decompress`));
+    }
+    at += 8 + size;
+  }
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
+}
 
-/** A recording of this name, or null if the file is none. */
+const NO_DETECTIONS = /^acquisition,column,row,timestamp\s*$/;
+const isMat = (bytes) => new TextDecoder("latin1").decode(bytes.slice(0, 10)) === "MATLAB 5.0";
+const isMap = (bytes) => startsWith(bytes, 0x89, 0x50, 0x4e, 0x47) || startsWith(bytes, 0x50, 0x66) || (isNpy(bytes) && !hasBins(bytes));
+
+/** A recording of this name, or null if the file is none. The models say what kind it is. */
 async function readRecording(name, file) {
-  let bytes = file, histograms = false, binWidth = form["bin-width"].value === "" ? NaN : Number(form["bin-width"].value);
+  let bytes = file, binWidth = form["bin-width"].value === "" ? 0 : Number(form["bin-width"].value);
   if (startsWith(bytes, 0x1f, 0x8b)) {
     bytes = await inflate(bytes, "gzip", "damaged gzip data");
   }
   if (startsWith(bytes, 0x50, 0x4b)) {
     const { contents, width } = await readNpz(bytes);
     bytes = contents;
-    binWidth = Number.isNaN(binWidth) ? width : binWidth;
-    histograms = true;
-  } else if (hasBins(bytes)) {
-    histograms = true;
-  } else if (!/\.csv(\.gz)?$/i.test(name)) {
+    binWidth = binWidth > 0 || Number.isNaN(width) ? binWidth : width;
+  } else if (isMap(bytes)) {
     return null;
+  } else if (isMat(bytes)) {
+    bytes = await unpackMat(bytes);
   }
   if (bytes.length === 0) {
     refuse("empty");
   }
-  if (!histograms && NO_DETECTIONS.test(new TextDecoder("latin1").decode(bytes.slice(0, 200)))) {
+  if (NO_DETECTIONS.test(new TextDecoder("latin1").decode(bytes.slice(0, 200)))) {
     refuse("no detections below the header");
   }
-  return { name, contents: new Blob([bytes]), histograms, binWidth: histograms ? binWidth : 0 };
+  const recording = { name, contents: new Blob([bytes]), binWidth };
+  const { line } = await askModels({ what: "recording", recording });
+  if (line === "") {
+    return null;
+  }
+  const [, drawn, width] = line.split("\t");
+  return { ...recording, drawn: drawn === "1", binWidth: width === "no" ? 0 : binWidth, lacksWidth: width === "must" && !(binWidth > 0) };
 }
 
 // ---- What was given -----------------------------------------------------------------------------------------------
@@ -259,7 +283,7 @@ function showGiven() {
     form[name].disabled = Boolean(given.recording);
   }
   for (const name of ["acquisitions", "seed"]) {  // what a TDC stream has of its own
-    form[name].disabled = Boolean(given.recording && !given.recording.histograms);
+    form[name].disabled = Boolean(given.recording && !given.recording.drawn);
   }
 }
 
@@ -281,8 +305,8 @@ async function read(file) {
   }
   const recording = await readRecording(file.name, bytes);
   if (recording) {
-    lastRecording = recording.histograms ? file : null;
-    if (Number.isNaN(recording.binWidth)) {
+    lastRecording = recording.drawn ? file : null;
+    if (recording.lacksWidth) {
       refuse("histograms need the width of their bins: give it in ps");
     }
     return { depth: null, recording };

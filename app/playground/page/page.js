@@ -135,9 +135,11 @@ function request() {
   if (recording) {
     const [, , , , , , np, slots, time] = sensor();
     const { sensor: preset, acquisitions, seed } = said;
-    const drawn = recording.histograms ? [`--bin-width ${recording.binWidth} --acquisitions ${acquisitions} --seed ${seed}`] : [];
+    const thinned = Object.fromEntries(["photons", "shift"].map((name) => [name, form[name].value]).filter(([, value]) => value !== ""));
+    const options = { ...(recording.binWidth > 0 ? { "bin-width": recording.binWidth } : {}), ...thinned, acquisitions, seed };
+    const drawn = recording.drawn ? [Object.entries(options).map(([name, value]) => `--${name} ${value}`).join(" ")] : [];
     return { what: "run", readouts, sensor: own, depth: null, recording,
-      text: lines(recording.histograms ? { sensor: preset, acquisitions, seed } : { sensor: preset }),
+      text: lines(recording.drawn ? { sensor: preset, ...thinned, acquisitions, seed } : { sensor: preset }),
       command: [`build/cpp/bin/dtof replay ${quoted(recording.name)}`, ...drawn, `--t-int ${time} --np ${np} --slots ${slots}`, chosen].join(" \\\n    ") };
   }
   const option = { columns: "array-columns", rows: "array-rows" };

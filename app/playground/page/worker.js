@@ -106,6 +106,10 @@ createModels().then((models) => {
         pixel(event.data);
       } else if (event.data.what === "state") {
         state(event.data);
+      } else if (event.data.what === "recording") {
+        take(null, null, event.data.recording);
+        attempt("recognise");
+        postMessage({ what: "recording", line: call("recording", "string") });
       } else if (event.data.what === "sensor") {
         take(event.data.sensor, null, null);
         postMessage({ what: "sensor", line: call("sensor", "string") });

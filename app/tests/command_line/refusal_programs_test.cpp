@@ -260,7 +260,9 @@ TEST_F(Programs, OptionsWithoutEffectAreErrors) {
   expect_refused("scenes --variant ezpointer:COUNT_WIDTH=8", "ezpointer has no COUNT_WIDTH to change");
   expect_refused("scenes --nearest 2", "--nearest has no effect");
   expect_refused("scenes --surface a.mat", "--surface has no effect");
-  expect_refused("measured a.json --tick 8", "--tick has no effect");
+  expect_refused("measured a.json --from-tick 8", "--from-tick has no effect");
+  expect_refused("measured a.mat --surfaces b.mat --bin-width 8", "--bin-width has no effect");
+  expect_refused("measured " + file("t.npy", "\x93NUMPY") + " --tick 8", "--tick has no effect");
   const std::string stream = file("one.csv", "acquisition,column,row,timestamp\n0,0,1,1\n");
   expect_refused("replay " + stream + " --photons 3", "--photons has no effect");
   expect_refused("replay " + stream + " --tick 3", "--tick has no effect");

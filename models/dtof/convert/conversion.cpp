@@ -173,15 +173,17 @@ class Picoseconds {
 };
 
 /// Time tags one by one, as they stand in the file.
-std::string convert_picoquant_events(const ConversionOptions& options, const std::filesystem::path& path) {
-  PicoquantFile tags(path);
-  const PicoquantHeader& header = tags.header();
+std::string convert_picoquant_events(const ConversionOptions& options, const std::filesystem::path& path,
+                                     const std::string& contents) {
+  const auto tags = contents.empty() ? std::make_unique<PicoquantFile>(path)
+                                     : std::make_unique<PicoquantFile>(path, contents);
+  const PicoquantHeader& header = tags->header();
   AtomicFile out(options.out);
   const bool t3 = header.mode == 3;
   out.append(t3 ? "channel,sync,time_ps\n" : "channel,time_ps\n");
   const Picoseconds picoseconds(header.unit_ps);
   fmt::memory_buffer line;
-  const PicoquantCount count = tags.read([&](const PicoquantEvent& event) {
+  const PicoquantCount count = tags->read([&](const PicoquantEvent& event) {
     line.clear();
     fmt::format_to(std::back_inserter(line), "{},", event.channel);
     if (t3) {
@@ -215,7 +217,7 @@ std::string convert_photon_hdf5_events(const ConversionOptions& options, const s
 
 std::string convert_to_events(const ConversionOptions& options, const ConversionInput& input) {
   const std::filesystem::path path = parse_array_address(options.recording.file).file;
-  return input.file.format == "picoquant" ? convert_picoquant_events(options, path)
+  return input.file.format == "picoquant" ? convert_picoquant_events(options, path, input.file.contents)
                                           : convert_photon_hdf5_events(options, path);
 }
 

@@ -33,10 +33,19 @@ gzFile open_stream(const std::filesystem::path& path) {
   return file;
 }
 
+int close_nothing(gzFile_s* /*file*/) { return 0; }
+
 }  // namespace
 
 ByteStream::ByteStream(std::filesystem::path path)
     : path_(std::move(path)), file_(open_stream(path_), gzclose_r) {
+  if (!refill()) {
+    fail_in_file(path_, "the file is empty");
+  }
+}
+
+ByteStream::ByteStream(std::filesystem::path path, std::string_view bytes)
+    : path_(std::move(path)), file_(nullptr, close_nothing), rest_(bytes) {
   if (!refill()) {
     fail_in_file(path_, "the file is empty");
   }
@@ -71,6 +80,12 @@ bool ByteStream::take_number(std::uint32_t& number, std::string_view what, std::
 }
 
 bool ByteStream::refill() {
+  if (!file_) {
+    buffer_ = rest_.substr(0, kPiece);
+    rest_.remove_prefix(buffer_.size());
+    next_ = 0;
+    return !buffer_.empty();
+  }
   buffer_.resize(kPiece);
   next_ = 0;
   const int count = gzread(file_.get(), buffer_.data(), static_cast<unsigned>(buffer_.size()));

@@ -29,6 +29,8 @@ class ByteStream {
  public:
   /// Throws as read_file does: for a missing or unreadable file, a directory, a device or an empty file.
   explicit ByteStream(std::filesystem::path path);
+  /// Reads bytes in memory, unpacked, which must outlive the stream. `path` is for error messages.
+  ByteStream(std::filesystem::path path, std::string_view bytes);
   ByteStream(const ByteStream&) = delete;
   ByteStream& operator=(const ByteStream&) = delete;
   ByteStream(ByteStream&&) = delete;
@@ -47,7 +49,8 @@ class ByteStream {
   std::filesystem::path path_;
   std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
   std::string buffer_;
-  std::size_t next_ = 0;  ///< next byte in `buffer_`
+  std::string_view rest_;  ///< bytes in memory that are not in `buffer_` yet
+  std::size_t next_ = 0;   ///< next byte in `buffer_`
 };
 
 /// First bytes of a file, unpacked, to recognise its format. Returns fewer or no bytes if the file is shorter

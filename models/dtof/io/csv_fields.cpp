@@ -7,6 +7,7 @@
 #include <charconv>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "dtof/core/error.hpp"
@@ -53,59 +54,6 @@ char separator_of(std::string_view line, std::span<const std::string_view> names
   return '\0';
 }
 
-/// The rules of one file, for lines that are not plainly digits and commas.
-struct LineReader {
-  std::string_view file_name;
-  std::string_view header;
-  std::span<const std::string_view> names;
-  char separator;
-  std::string_view may_be_none;
-
-  [[noreturn]] void refuse(std::size_t line, std::size_t field, std::string_view text,
-                           const char* what) const {
-    fail_at_line(file_name, line, fmt::format("{} \"{}\" is {}", names[field], text, what));
-  }
-
-  void read(std::size_t line_number, std::string_view line, std::span<std::uint64_t> fields) const {
-    const std::vector<std::string_view> parts = split(line, separator);
-    if (parts.size() != fields.size()) {
-      fail_at_line(file_name, line_number,
-                   fmt::format("{} fields instead of {} ({})", parts.size(), fields.size(), header));
-    }
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      fields[i] = value(line_number, i, parts[i]);
-    }
-  }
-
- private:
-  [[nodiscard]] std::uint64_t value(std::size_t line, std::size_t field, std::string_view text) const {
-    constexpr const char* kNoInteger = "not a decimal integer";
-    std::string_view digits = bare(text);
-    const bool negative = digits.starts_with('-');
-    digits.remove_prefix(negative ? 1 : 0);
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error == std::errc::result_out_of_range || (error == std::errc() && number == kNoCsvValue)) {
-      refuse(line, field, text, "too large");
-    }
-    // With semicolons between the fields a comma may stand before the fraction.
-    std::string_view rest = digits.substr(static_cast<std::size_t>(end - digits.data()));
-    if (rest.starts_with('.') || (separator == ';' && rest.starts_with(','))) {
-      rest = rest.find_first_not_of('0', 1) == std::string_view::npos ? "" : rest;
-    }
-    if (error != std::errc() || !rest.empty()) {
-      refuse(line, field, text, kNoInteger);
-    }
-    if (!negative) {
-      return number;
-    }
-    if (number != 1 || names[field] != may_be_none) {
-      refuse(line, field, text, kNoInteger);
-    }
-    return kNoCsvValue;
-  }
-};
-
 /// Reads a line of nothing but digits and separators, and no number that is kNoCsvValue; false for any other.
 bool read_plain(std::string_view line, char separator, std::span<std::uint64_t> fields) {
   const char* position = line.data();
@@ -130,40 +78,89 @@ void fail_at_line(std::string_view file_name, std::size_t line, std::string_view
   throw InputError(fmt::format("{}:{}: {}", file_name, line, reason));
 }
 
+IntegerCsv::IntegerCsv(std::string file_name, std::string_view header, CsvLineHandler handler,
+                       std::string_view may_be_none)
+    : file_name_(std::move(file_name)),
+      header_(header),
+      handler_(std::move(handler)),
+      may_be_none_(may_be_none),
+      names_(split_at_commas(header)),
+      fields_(names_.size()) {}
+
+void IntegerCsv::take(std::string_view line) {
+  ++line_number_;
+  if (line_number_ == 1) {
+    separator_ = separator_of(line, names_);
+    if (separator_ == '\0') {
+      fail_at_line(file_name_, 1, fmt::format("the header must be \"{}\"", header_));
+    }
+    return;
+  }
+  if (without_blanks(line).empty()) {
+    empty_line_ = empty_line_ == 0 ? line_number_ : empty_line_;
+    return;
+  }
+  if (empty_line_ != 0) {
+    fail_at_line(file_name_, empty_line_, "empty line");
+  }
+  if (!read_plain(line, separator_, fields_)) {
+    read_fields(line);
+  }
+  handler_(line_number_, fields_);
+}
+
+void IntegerCsv::refuse(std::size_t field, std::string_view text, const char* what) const {
+  fail_at_line(file_name_, line_number_, fmt::format("{} \"{}\" is {}", names_[field], text, what));
+}
+
+void IntegerCsv::read_fields(std::string_view line) {
+  const std::vector<std::string_view> parts = split(line, separator_);
+  if (parts.size() != fields_.size()) {
+    fail_at_line(file_name_, line_number_,
+                 fmt::format("{} fields instead of {} ({})", parts.size(), fields_.size(), header_));
+  }
+  for (std::size_t i = 0; i < fields_.size(); ++i) {
+    fields_[i] = value(i, parts[i]);
+  }
+}
+
+std::uint64_t IntegerCsv::value(std::size_t field, std::string_view text) const {
+  constexpr const char* kNoInteger = "not a decimal integer";
+  std::string_view digits = bare(text);
+  const bool negative = digits.starts_with('-');
+  digits.remove_prefix(negative ? 1 : 0);
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error == std::errc::result_out_of_range || (error == std::errc() && number == kNoCsvValue)) {
+    refuse(field, text, "too large");
+  }
+  // With semicolons between the fields a comma may stand before the fraction.
+  std::string_view rest = digits.substr(static_cast<std::size_t>(end - digits.data()));
+  if (rest.starts_with('.') || (separator_ == ';' && rest.starts_with(','))) {
+    rest = rest.find_first_not_of('0', 1) == std::string_view::npos ? "" : rest;
+  }
+  if (error != std::errc() || !rest.empty()) {
+    refuse(field, text, kNoInteger);
+  }
+  if (!negative) {
+    return number;
+  }
+  if (number != 1 || names_[field] != may_be_none_) {
+    refuse(field, text, kNoInteger);
+  }
+  return kNoCsvValue;
+}
+
 void parse_integer_csv(std::string_view file_name, std::string_view text, std::string_view header,
                        const CsvLineHandler& handler, std::string_view may_be_none) {
   text = without_byte_order_mark(text);
-  const std::vector<std::string_view> names = split_at_commas(header);
-  std::vector<std::uint64_t> fields(names.size());
-  LineReader reader{file_name, header, names, ',', may_be_none};
-  std::size_t line_number = 0;
-  std::size_t empty_line = 0;  // the first one behind the last line that is not
+  IntegerCsv csv(std::string(file_name), header, handler, may_be_none);
   while (!text.empty()) {
-    ++line_number;
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.ends_with('\r')) {
-      line.remove_suffix(1);
-    }
-    if (line_number == 1) {
-      reader.separator = separator_of(line, names);
-      if (reader.separator == '\0') {
-        fail_at_line(file_name, 1, fmt::format("the header must be \"{}\"", header));
-      }
-      continue;
-    }
-    if (without_blanks(line).empty()) {
-      empty_line = empty_line == 0 ? line_number : empty_line;
-      continue;
-    }
-    if (empty_line != 0) {
-      fail_at_line(file_name, empty_line, "empty line");
-    }
-    if (!read_plain(line, reader.separator, fields)) {
-      reader.read(line_number, line, fields);
-    }
-    handler(line_number, fields);
+    line.remove_suffix(line.ends_with('\r') ? 1 : 0);
+    csv.take(line);
   }
 }
 

@@ -74,18 +74,10 @@ std::string until_zero(std::string_view text) { return std::string(text.substr(0
 /// The file's bytes, its header and the state of its clock.
 class PicoquantFile::Reader {
  public:
-  explicit Reader(std::filesystem::path path) : bytes_(path), path_(std::move(path)) {
-    const std::string start = bytes_.take(16, "its header");
-    if (start.starts_with(kPtuMagic)) {
-      read_ptu_header();
-    } else if (start.starts_with(kHydraHarp)) {
-      read_ht_header();
-    } else {
-      fail_in_file(path_, "neither a PTU nor an HT3 file");
-    }
-    if (!std::isfinite(header.unit_ps) || header.unit_ps <= 0.0) {
-      fail_in_file(path_, fmt::format("the header's resolution is {:g} ps, must be above 0", header.unit_ps));
-    }
+  explicit Reader(std::filesystem::path path) : bytes_(path), path_(std::move(path)) { read_header(); }
+  Reader(std::filesystem::path path, std::string_view contents)
+      : bytes_(path, contents), path_(std::move(path)) {
+    read_header();
   }
 
   PicoquantCount read(const std::function<void(const PicoquantEvent&)>& take) {
@@ -108,6 +100,20 @@ class PicoquantFile::Reader {
   PicoquantHeader header;
 
  private:
+  void read_header() {
+    const std::string start = bytes_.take(16, "its header");
+    if (start.starts_with(kPtuMagic)) {
+      read_ptu_header();
+    } else if (start.starts_with(kHydraHarp)) {
+      read_ht_header();
+    } else {
+      fail_in_file(path_, "neither a PTU nor an HT3 file");
+    }
+    if (!std::isfinite(header.unit_ps) || header.unit_ps <= 0.0) {
+      fail_in_file(path_, fmt::format("the header's resolution is {:g} ps, must be above 0", header.unit_ps));
+    }
+  }
+
   struct Tag {
     std::string name;
     std::uint32_t type;
@@ -282,6 +288,8 @@ bool is_picoquant(std::string_view start) {
 
 PicoquantFile::PicoquantFile(std::filesystem::path path)
     : reader_(std::make_unique<Reader>(std::move(path))) {}
+PicoquantFile::PicoquantFile(std::filesystem::path path, std::string_view contents)
+    : reader_(std::make_unique<Reader>(std::move(path), contents)) {}
 PicoquantFile::~PicoquantFile() = default;
 const PicoquantHeader& PicoquantFile::header() const { return reader_->header; }
 PicoquantCount PicoquantFile::read(const std::function<void(const PicoquantEvent&)>& take) {
@@ -304,9 +312,11 @@ std::string picoquant_description(const PicoquantHeader& header, const Picoquant
   return text;
 }
 
-HistogramCube picoquant_cube(const std::filesystem::path& path, std::string& description) {
+namespace {
+
+/// Histograms of a file that has just been opened.
+HistogramCube cube_of(const std::filesystem::path& path, PicoquantFile& file, std::string& description) {
   constexpr std::uint64_t kMostBins = std::uint64_t{1} << 20U;
-  PicoquantFile file(path);
   const bool t3 = file.header().mode == 3;
   std::vector<std::vector<double>> channels;
   std::optional<std::uint64_t> last_sync;
@@ -354,6 +364,19 @@ HistogramCube picoquant_cube(const std::filesystem::path& path, std::string& des
     description += fmt::format(", {} without a sync before or beyond {} bins left out", beyond, kMostBins);
   }
   return cube;
+}
+
+}  // namespace
+
+HistogramCube picoquant_cube(const std::filesystem::path& path, std::string& description) {
+  PicoquantFile file(path);
+  return cube_of(path, file, description);
+}
+
+HistogramCube picoquant_cube(const std::filesystem::path& path, std::string_view contents,
+                             std::string& description) {
+  PicoquantFile file(path, contents);
+  return cube_of(path, file, description);
 }
 
 }  // namespace dtof

@@ -48,6 +48,8 @@ class PicoquantFile {
  public:
   /// Reads the header. Throws InputError "<path>: <reason>".
   explicit PicoquantFile(std::filesystem::path path);
+  /// Reads contents that were read from `path`, unpacked; they must outlive the object.
+  PicoquantFile(std::filesystem::path path, std::string_view contents);
   PicoquantFile(const PicoquantFile&) = delete;
   PicoquantFile& operator=(const PicoquantFile&) = delete;
   PicoquantFile(PicoquantFile&&) = delete;
@@ -71,5 +73,8 @@ std::string picoquant_description(const PicoquantHeader& header, const Picoquant
 /// Reads histograms of the times since the last sync. Each detector is a column; a bin is one unit of the
 /// file. Sets `description`. Throws InputError for a file without photons, and in mode T2 without syncs.
 HistogramCube picoquant_cube(const std::filesystem::path& path, std::string& description);
+/// Reads contents that were read from `path`, unpacked.
+HistogramCube picoquant_cube(const std::filesystem::path& path, std::string_view contents,
+                             std::string& description);
 
 }  // namespace dtof

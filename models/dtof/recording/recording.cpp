@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -20,22 +18,15 @@
 #include "dtof/io/byte_stream.hpp"
 #include "dtof/io/input_file.hpp"
 #include "dtof/recording/histogram_stream.hpp"
-#include "dtof/recording/line_reader.hpp"
 #include "dtof/recording/photon_hdf5_cube.hpp"
 #include "dtof/recording/photon_times_mat.hpp"
 #include "dtof/recording/picoquant.hpp"
+#include "dtof/recording/plain_recording.hpp"
 #include "dtof/recording/recorded_array.hpp"
-#include "dtof/recording/stream_csv.hpp"
-#include "dtof/recording/tmf8820_json.hpp"
-#include "dtof/recording/tmf8829_json.hpp"
-#include "dtof/recording/tmf882x_log.hpp"
-#include "dtof/recording/vl53l8ch_log.hpp"
+#include "dtof/recording/recording_format.hpp"
 
 namespace dtof {
 namespace {
-
-/// Before its first histogram a log may have the lines of the sensor's start.
-constexpr std::size_t kStartOfLog = std::size_t{1} << 16U;
 
 // A pixel whose histogram is empty measured nothing: its result is no measurement of the true distance.
 void forget_truth_without_photons(const HistogramCube& cube, std::vector<double>& true_distance) {
@@ -49,137 +40,23 @@ void forget_truth_without_photons(const HistogramCube& cube, std::vector<double>
   }
 }
 
-/// Whether the name ends with `ending`, whatever the case of its letters.
-bool name_ends(std::string name, std::string_view ending) {
-  std::ranges::transform(name, name.begin(), [](unsigned char letter) { return std::tolower(letter); });
-  return name.ends_with(ending);
-}
-
-/// What a name ends with, and the kind of file that has it.
-struct NameEnding {
-  std::string_view ending;
-  const char* format;
-};
-
-/// First character of a text that is no blank; a blank if there is none.
-char first_character(std::string_view contents) {
-  const std::string_view text = without_byte_order_mark(contents);
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  return begin == std::string_view::npos ? ' ' : text[begin];
-}
-
-/// What the content says of a file; empty if it says nothing.
-std::string format_of_contents(std::string_view contents) {
-  const std::string_view start = contents.substr(0, kStartOfLog);
-  const char first = first_character(start);
-  if (contents.starts_with("\x93NUMPY")) {
-    return "npy";
-  }
-  if (contents.starts_with("MATLAB")) {
-    return "mat";
-  }
-  if (is_zip(contents)) {
-    return "npz";
-  }
-  if (first == '{') {  // a TMF8829 log is an object, the TMF8820 captures are an array
-    return "tmf8829";
-  }
-  if (first == '[' || is_tmf882x_log(start)) {
-    return "tmf8820";
-  }
-  if (is_vl53l8ch_log(start)) {
-    return "vl53l8ch";
-  }
-  if (contents.substr(0, contents.find('\n')).find("acquisition") != std::string_view::npos) {
-    return "csv";
-  }
-  return "";
-}
-
-/// What the content says of a file, else its name. Throws InputError.
-std::string find_format(const std::string& name, std::string_view contents) {
-  constexpr std::array<NameEnding, 8> kEndings = {{{".csv", "csv"},
-                                                   {".csv.gz", "csv"},
-                                                   {".npy", "npy"},
-                                                   {".npy.gz", "npy"},
-                                                   {".mat", "mat"},
-                                                   {".mat.gz", "mat"},
-                                                   {".json", "tmf8820"},
-                                                   {".json.gz", "tmf8820"}}};
-  const std::string found_in_contents = format_of_contents(contents);
-  if (!found_in_contents.empty()) {
-    return found_in_contents;
-  }
-  const auto* const found =
-      std::ranges::find_if(kEndings, [&](const NameEnding& known) { return name_ends(name, known.ending); });
-  if (found == kEndings.end()) {
-    throw InputError(fmt::format("{}: unknown kind of recording; name it with --format", name));
-  }
-  return found->format;
-}
-
-/// ", 2 ... are left out", or nothing.
-std::string left_out_phrase(std::size_t count, std::string_view what) {
-  return count == 0 ? "" : fmt::format(", {} {} left out", count, what);
-}
-
-/// Format of a log that is read line by line from its file; empty for another file, and for a pipe whose
-/// contents decide.
-std::string line_log_format(const RecordingOptions& options, const std::filesystem::path& path) {
+/// Format of a log or stream that is read line by line from its file; empty for another file, and for a pipe
+/// whose contents decide.
+std::string line_format(const RecordingOptions& options, const std::filesystem::path& path) {
   const std::string& asked = options.format;
-  if (asked == "tmf8821" || asked == "tmf8828" || asked == "vl53l8ch") {
+  if (asked == "csv" || asked == "tmf8821" || asked == "tmf8828" || asked == "vl53l8ch") {
     return asked;
   }
   if (asked != "auto" && asked != "tmf8820") {
     return "";
   }
-  const std::string start = file_start(path, kStartOfLog);
+  const std::string start = file_start(path, kStartOfRecording);
+  if (asked == "auto" && !start.empty() && find_recording_format(path.string(), start) == "csv") {
+    return "csv";
+  }
   const std::string found = format_of_contents(start);
   const bool lines = found == "vl53l8ch" || (found == "tmf8820" && first_character(start) != '[');
   return lines && (asked == "auto" || asked == found) ? found : "";
-}
-
-RecordedData open_line_log(const RecordingOptions& options, const RecordingFile& file) {
-  const std::filesystem::path path = parse_array_address(options.file).file;
-  LineReader lines = file.contents.empty() ? LineReader(path) : LineReader(path, file.contents);
-  std::string description;
-  HistogramCube cube;
-  if (file.format == "vl53l8ch") {
-    cube = read_vl53l8ch_log(lines, options.bin_width_s, description);
-  } else {
-    Tmf882xOptions log{.mode = std::nullopt, .bin_width_s = options.bin_width_s};
-    if (file.format != "tmf8820") {
-      log.mode = file.format == "tmf8821" ? Tmf882xMode::kTwoCaptures : Tmf882xMode::kEightByEight;
-    }
-    cube = read_tmf882x_log(lines, log, description);
-  }
-  return {.description = std::move(description), .data = std::move(cube)};
-}
-
-RecordedData open_tmf8820(const RecordingOptions& options, const RecordingFile& file) {
-  if (file.contents.empty() || is_tmf882x_log(file.contents)) {
-    return open_line_log(options, file);
-  }
-  const std::vector<Tmf8820Capture> captures = parse_tmf8820_json(options.file, file.contents);
-  return {.description = fmt::format("ams TMF8820, {} captures of 9 zones", captures.size()),
-          .data = tmf8820_cube(captures, options.bin_width_s.value_or(kTmf8820BinWidth), 0.0, options.file)};
-}
-
-RecordedData open_stream(const RecordingOptions& options, const RecordingFile& file) {
-  RecordedStream stream = parse_stream_csv(options.file, file.contents,
-                                           {.np = options.resampling.np,
-                                            .slots = options.resampling.slots,
-                                            .columns = options.columns,
-                                            .rows = options.rows,
-                                            .acquisitions = options.acquisitions});
-  std::string description = fmt::format("recorded stream, {} detections", stream.detection_count());
-  return {.description = std::move(description), .data = std::move(stream)};
-}
-
-RecordedData from_times(PhotonTimes photons) {
-  std::string description = fmt::format("photon times, {} photons of {} x {} pixels", photons.ticks.size(),
-                                        photons.columns, photons.rows);
-  return {.description = std::move(description), .data = std::move(photons)};
 }
 
 /// Cells of MATLAB 7.3 as photon times.
@@ -248,7 +125,7 @@ RecordingFile read_recording(const RecordingOptions& options) {
     file.format = "picoquant";
     return file;
   }
-  if (std::string format = line_log_format(options, path); !format.empty()) {
+  if (std::string format = line_format(options, path); !format.empty()) {
     file.format = std::move(format);
     return file;
   }
@@ -258,38 +135,23 @@ RecordingFile read_recording(const RecordingOptions& options) {
     return file;
   }
   std::string packed = read_file(path);
-  // A frame as text is longer than what other files may unpack to.
-  const bool stream = options.format == "csv" || name_ends(path.string(), ".csv.gz");
   if (packed.starts_with("\x1f\x8b")) {
-    file.contents = unpack_gzip(path, std::move(packed), stream ? kLongestFile : kLongestUnpacked);
+    file.contents = unpack_gzip(path, std::move(packed));
   } else {
     file.contents = std::move(packed);
   }
-  file.format = options.format != "auto" ? options.format : find_format(path.string(), file.contents);
+  file.format =
+      options.format != "auto" ? options.format : find_recording_format(path.string(), file.contents);
+  if (file.format.empty()) {
+    fail_in_file(path, "unknown kind of recording; name it with --format");
+  }
   return file;
 }
 
 RecordedData open_recorded_data(const RecordingOptions& options, const RecordingFile& file) {
-  if (file.format == "csv") {
-    return open_stream(options, file);
-  }
-  if (file.format == "tmf8820") {
-    return open_tmf8820(options, file);
-  }
-  if (file.format == "tmf8821" || file.format == "tmf8828" || file.format == "vl53l8ch") {
-    return open_line_log(options, file);
-  }
-  if (file.format == "tmf8829") {
-    const Tmf8829Log log = parse_tmf8829_json(options.file, file.contents);
-    return {.description = fmt::format("ams TMF8829, {} frames{}", log.frames.size(),
-                                       left_out_phrase(log.left_out, "without results or histograms")),
-            .data = tmf8829_cube(log, 0.0, options.file)};
-  }
   const std::filesystem::path path = parse_array_address(options.file).file;
-  if (file.format == "picoquant") {
-    std::string description;
-    HistogramCube cube = picoquant_cube(path, description);
-    return {.description = std::move(description), .data = std::move(cube)};
+  if (is_plain_recording(file.format)) {
+    return open_plain_recording(path, options, file);
   }
   if (file.format == "photon-hdf5") {
     std::string description;
@@ -298,11 +160,11 @@ RecordedData open_recorded_data(const RecordingOptions& options, const Recording
   }
   // A cell array of MATLAB has photon times, another variable histograms.
   if (file.format == "mat" && !options.bin_width_s) {
-    return from_times(parse_photon_times_mat(path, file.contents, variable_of(options)));
+    return recorded_times(parse_photon_times_mat(path, file.contents, variable_of(options)));
   }
   if (file.format == "hdf5" && is_hdf5_cell_array(path, variable_of(options))) {
     const std::string name = variable_of(options);
-    return from_times(times_of_cells(path, read_hdf5_cells(path, name), name));
+    return recorded_times(times_of_cells(path, read_hdf5_cells(path, name), name));
   }
   return open_histograms(options, file);
 }

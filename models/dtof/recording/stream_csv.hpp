@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dtof/core/detection.hpp"
+#include "dtof/recording/line_reader.hpp"
 
 namespace dtof {
 
@@ -44,16 +45,15 @@ class RecordedStream : public StreamSource {
   std::uint32_t acquisitions_;
 };
 
-/// Reads a recorded stream, plain or gzip. Lines may have any order; slots follow the order of lines with the
-/// same acquisition, column and row. Line ends are LF or CRLF, and the last may be missing. The format of a
-/// line is that of parse_integer_csv (io/csv_fields.hpp). A timestamp of -1 is no event; the line counts for
-/// the sizes only. At most 65,536 columns, 65,536 rows and 2^24 pixels. Throws InputError "<file>:<line>:
-/// <reason>" for the first illegal line.
+/// Reads a recorded stream, plain or gzip, in pieces: only the detections are held. Lines may have any order;
+/// lines in the order of write_stream_csv take least memory, 8 bytes for each. Slots follow the order of
+/// lines with the same acquisition, column and row. Line ends are LF or CRLF, and the last may be missing.
+/// The format of a line is that of IntegerCsv (io/csv_fields.hpp). A timestamp of -1 is no event; the line
+/// counts for the sizes only. At most 65,536 columns, 65,536 rows and 2^24 pixels. Throws InputError
+/// "<file>:<line>: <reason>" for the first illegal line.
 RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCsvOptions& options);
-
-/// Parses text that was read from `path`, as read_stream_csv does.
-RecordedStream parse_stream_csv(const std::filesystem::path& path, std::string_view text,
-                                const StreamCsvOptions& options);
+/// The same of lines from a file or from memory.
+RecordedStream read_stream_csv(LineReader& lines, const StreamCsvOptions& options);
 
 /// Writes `source` column by column, row by row. read_stream_csv returns the same stream.
 void write_stream_csv(const std::filesystem::path& path, const StreamSource& source);

@@ -220,14 +220,21 @@ TEST_F(LongFileTest, AnHt3HeaderMayNameMoreRecordsThan32BitsHold) {
 
 TEST_F(LongFileTest, WhatIsHeldIsRefusedBeyond4GiBBeforeItIsHeld) {
   const std::uint64_t before = held();
-  for (const auto& [name, begin] :
-       {std::pair<const char*, std::string>{"a.csv", "acquisition,column,row,timestamp\n"},
-        {"a.mat", "MATLAB 5.0 MAT-file"}}) {
-    write_with_hole(name, begin, kFourGiB, "end");
-    const RecordingOptions options{.file = path(name)};
-    test::expect_input_error([&] { (void)read_recording(options); },
-                             path(name) + ": more than 4096 MiB to read");
-  }
+  write_with_hole("a.mat", "MATLAB 5.0 MAT-file", kFourGiB, "end");
+  const RecordingOptions options{.file = path("a.mat")};
+  test::expect_input_error([&] { (void)read_recording(options); },
+                           path("a.mat") + ": more than 4096 MiB to read");
+  EXPECT_LT(held() - before, std::uint64_t{1} << 26U);
+}
+
+TEST_F(LongFileTest, AStreamIsReadLineByLine) {
+  const std::uint64_t before = held();
+  write_with_hole("a.csv", "acquisition,column,row,timestamp\n5,1,2,7\n", kFourGiB, "end");
+  const RecordingOptions options{.file = path("a.csv")};
+  const RecordingFile file = read_recording(options);
+  EXPECT_EQ(file.format, "csv");
+  test::expect_input_error([&] { (void)open_recorded_data(options, file); },
+                           path("a.csv") + ":3: the line is longer than 1048576 bytes");
   EXPECT_LT(held() - before, std::uint64_t{1} << 26U);
 }
 

@@ -203,6 +203,27 @@ TEST_F(PicoquantTest, PhotonsOfModeT2AreSinceTheLastSync) {
   EXPECT_THAT(cube.counts, ElementsAre(0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 1));
 }
 
+TEST_F(PicoquantTest, ContentsInMemoryAreReadAsTheFile) {
+  // Longer than a piece of the reader, 2^18 bytes.
+  std::vector<std::uint32_t> records;
+  for (std::uint32_t record = 0; record < 70000; ++record) {
+    records.push_back(photon_t3(record % 3, record % 4000, record % 1024));
+  }
+  const std::string file = ptu(kHydraT3, records.size(), records);
+  std::string description;
+  std::string of_contents;
+  const HistogramCube cube = picoquant_cube(write("a.ptu", file), description);
+  const HistogramCube held = picoquant_cube("a.ptu", file, of_contents);
+  EXPECT_EQ(of_contents, description);
+  EXPECT_EQ(held.counts, cube.counts);
+  EXPECT_EQ(held.bin_width, cube.bin_width);
+  // A pipe is held.
+  const RecordingOptions options{.file = pipe_of(file.substr(0, 60000)).string()};
+  const RecordedData recorded = open_recorded_data(options, read_recording(options));
+  EXPECT_THAT(recorded.description,
+              testing::HasSubstr(" of the 70000 records that the header names are missing"));
+}
+
 /// A file as it is met in the wild, and the sentence that it gets.
 struct Malformed {
   std::string name;
@@ -252,6 +273,10 @@ TEST_F(PicoquantTest, EachMalformedFileHasItsSentence) {
     std::string description;
     test::expect_input_error([&] { (void)picoquant_cube(file, description); },
                              file.string() + ": " + one.sentence);
+    if (!one.contents.starts_with("\x1f\x8b")) {
+      test::expect_input_error([&] { (void)picoquant_cube(file, one.contents, description); },
+                               file.string() + ": " + one.sentence);
+    }
   }
 }
 

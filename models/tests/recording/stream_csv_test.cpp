@@ -7,10 +7,13 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "dtof/core/random.hpp"
 #include "dtof/io/atomic_file.hpp"
+#include "dtof/recording/recording.hpp"
 #include "tests/io/io_test_support.hpp"
 
 namespace dtof {
@@ -44,6 +47,61 @@ TEST_F(StreamCsvTest, SortsByPixelAndAcquisitionAndKeepsSlotOrder) {
   EXPECT_THAT(stream.column(0).row(1), ElementsAre(Detection{2, 7}, Detection{2, 6}));
   EXPECT_THAT(stream.column(1).row(0), ElementsAre(Detection{0, 1023}, Detection{5, 30}, Detection{5, 20}));
   EXPECT_THAT(stream.column(1).row(1), IsEmpty());
+}
+
+// The lines up to the first one out of order are taken as they come; those after it belong to pixels before
+// and behind.
+TEST_F(StreamCsvTest, LinesOutOfOrderJoinThoseInOrder) {
+  const RecordedStream stream =
+      read("0,0,0,1\n0,0,0,2\n3,0,0,3\n0,0,2,4\n1,2,1,5\n1,2,1,6\n2,0,0,7\n4,2,1,8\n0,1,0,9\n");
+  EXPECT_EQ(stream.columns(), 3);
+  EXPECT_EQ(stream.rows(), 3);
+  EXPECT_EQ(stream.detection_count(), 9U);
+  EXPECT_THAT(stream.column(0).row(0),
+              ElementsAre(Detection{0, 1}, Detection{0, 2}, Detection{2, 7}, Detection{3, 3}));
+  EXPECT_THAT(stream.column(0).row(1), IsEmpty());
+  EXPECT_THAT(stream.column(0).row(2), ElementsAre(Detection{0, 4}));
+  EXPECT_THAT(stream.column(1).row(0), ElementsAre(Detection{0, 9}));
+  EXPECT_THAT(stream.column(2).row(1), ElementsAre(Detection{1, 5}, Detection{1, 6}, Detection{4, 8}));
+  refused("0,0,0,1\n0,0,0,2\n1,1,0,1\n0,0,0,3\n",
+          "5: more than 2 timestamps for acquisition 0, column 0, row 0 (SLOTS = 2)");
+}
+
+TEST_F(StreamCsvTest, EachPixelHasItsOwnSlots) {
+  EXPECT_EQ(read("5,0,0,1\n5,0,1,2\n5,0,2,3\n5,1,2,4\n").detection_count(), 4U);
+}
+
+TEST_F(StreamCsvTest, ColumnsAndRowsWithoutEventsAreThere) {
+  const RecordedStream stream = read("0,2,1,5\n0,4,3,-1\n");
+  EXPECT_EQ(stream.columns(), 5);
+  EXPECT_EQ(stream.rows(), 4);
+  for (int column = 0; column < 5; ++column) {
+    EXPECT_EQ(stream.column(column).rows(), 4);
+    EXPECT_EQ(stream.column(column).detection_count(), column == 2 ? 1U : 0U);
+  }
+  EXPECT_THAT(stream.column(2).row(1), ElementsAre(Detection{0, 5}));
+}
+
+// Lines of 64 KiB, most of it blanks, have 64 MiB together.
+TEST_F(StreamCsvTest, HoldsEventsAndNoText) {
+  constexpr std::size_t kLine = std::size_t{1} << 16U;
+  std::string text(kHeader);
+  for (int line = 0; line < 1024; ++line) {
+    text += fmt::format("{},0,0,5{}\n", line, std::string(kLine, ' '));
+  }
+  for (const char* name : {"long.csv", "long.csv.gz"}) {
+    SCOPED_TRACE(name);
+    if (std::string_view(name).ends_with("gz")) {
+      write_gzip_file(path(name), text);
+    } else {
+      write_file(path(name), text);
+    }
+    const RecordingFile file = read_recording({.file = path(name)});
+    EXPECT_EQ(file.format, "csv");
+    EXPECT_EQ(file.contents, "");
+    const RecordedData data = open_recorded_data({.file = path(name)}, file);
+    EXPECT_EQ(std::get<RecordedStream>(data.data).detection_count(), 1024U);
+  }
 }
 
 TEST_F(StreamCsvTest, AcceptsGivenSizesCrLfAndAMissingLastNewline) {
