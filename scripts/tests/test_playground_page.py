@@ -317,6 +317,16 @@ class InTheBrowser(InPlayground):
                 self.assertEqual(bytes(self.browser.evaluate("window.bytes")), unpacked or content)
                 self.assertFalse(self.browser.evaluate("form.acquisitions.disabled || form.seed.disabled"))
 
+    def test_a_long_name_stays_in_its_box(self) -> None:
+        name = "a_recording_with_a_name_that_is_longer_than_the_settings_are_wide.json"
+        for width, height in ((390, 844), (1440, 900)):
+            self.show(width, height)
+            self.drop((name, b"[{}]"))
+            self.assertEqual(self.state(), "done", self.status())
+            for box in ("drop-recording", "scene-summary"):
+                inside = f"(b => b.scrollWidth <= b.clientWidth && b.getBoundingClientRect().right <= byId('controls').getBoundingClientRect().right)(byId('{box}'))"
+                self.assertTrue(self.browser.evaluate(inside), box)
+
     def test_a_recording_is_thinned_and_shifted(self) -> None:
         self.show()
         self.browser.evaluate("form.photons.value = '500'; form.shift.value = '-2.5'; form['bin-width'].value = '90'")

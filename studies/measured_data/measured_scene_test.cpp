@@ -112,7 +112,10 @@ TEST(RecordedScene, WithoutDistancesTheStrongestReturnIsTheTruth) {
   EXPECT_THAT(shifted.true_m, ElementsAre(DoubleNear(16.0 * kMetresPerNs, 1e-9)));
   Resampling resampling;
   resampling.acquisitions = 65535;
-  EXPECT_EQ(shifted.frame(resampling)->column(0).row(0).size(), 100U);
+  const auto frame = shifted.frame(resampling);
+  EXPECT_EQ(frame->column(0).row(0).size(), 100U);
+  // The first bin begins at 5 ns, in bins of 45 ns / 1024.
+  EXPECT_GE(std::ranges::min(frame->column(0).row(0), {}, &Detection::timestamp).timestamp, 113);
 }
 
 TEST(RecordedScene, AnEarlierWindowEndsBeforeTheDistance) {
