@@ -68,7 +68,8 @@
       make("span", { textContent: `${number(value)} %${interval} ${measure}` }),
       make("span", { textContent: [`${row.light} klux`, typeof row.x === "string" ? row.x : "", row.note].filter(Boolean).join(", ") }),
       make("code", { textContent: plot.command }),
-      make("small", { textContent: row.figure && index === 0 ? `${row.figure} in reports/figures.json` : plot.table })];
+      make("small", { textContent: row.figures?.[index] ? `${row.figures[index]} in reports/figures.json` : plot.table }),
+      make("small", { textContent: `inputs ${plot.inputs}, commit ${plot.commit}` })];
     if (plot.stale.length > 0) {
       lines.push(make("small", { className: "old", textContent: "Measured before what lies here now." }));
     }
