@@ -26,8 +26,8 @@ PLAYGROUND = "playground.html"
 LIBRARY, LICENCE = "chart.js", "chart.js.LICENSE.md"
 GLOSSARY, DOCUMENTS = "docs/reference/glossary.md", "docs/README.md"
 WORD_ROW = re.compile(r"<tr>\n<td>(?P<word>[^<]*)</td>")
-# Copied beside the pages where a report links to them; any other file is named only.
-COPIED = (".csv", ".png", ".svg")
+# Copied beside the pages where a page links to them; any other file is named only.
+COPIED = (".csv", ".png", ".svg", ".ipynb")
 
 
 def stale_lines(plot: plots.Plot) -> str:
