@@ -40,7 +40,9 @@ def notebook(script: str, name: str) -> str:
     made = []
     for number, (kind, text) in enumerate(cells(script, name), 1):
         cell: dict[str, object] = {"cell_type": kind, "id": f"cell-{number}", "metadata": {}, "source": text.splitlines(keepends=True)}
-        made.append(cell | ({"execution_count": None, "outputs": []} if kind == "code" else {}))
+        if kind == "code":
+            cell |= {"execution_count": None, "outputs": []}
+        made.append(cell)
     return json.dumps({"cells": made, "metadata": METADATA} | FORMAT, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
 
 
