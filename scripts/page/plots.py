@@ -170,7 +170,7 @@ def interval(row: dict[str, str], name: str) -> Value:
 PLOTS: tuple[tuple[Plot, Callable[[Path, Titles], Iterator[Row]]], ...] = (
     (Plot("area", "Area against accuracy", "All scenes except flat targets, sensor thesis. Small marks are variants of a read-out.",
           "pareto", "pareto.csv", "points", "area of 200 x 160 pixels, mm2", (ABOVE_3, RMSE), "pareto.svg"), area),
-    (Plot("light", "Errors over light", "Each read-out on one scene, from dusk to bright sun.",
+    (Plot("light", "Errors over light", "Each read-out on all scenes together or on one of them, from dusk to bright sun.",
           "scenes", "scenes.csv", "lines", "background light, klux", (ABOVE_3, ABOVE_10, RMSE)), scenes),
     (Plot("hostile", "Hostile conditions", "Glass, fog, other lasers, motion and skew; bars are intervals at 95 %. \"told\" in a label: the user has "
           "set the read-out's parameters for the sensor and its surroundings.",

@@ -411,6 +411,19 @@ class InTheBrowser(Shown):
         fills = self.browser.evaluate("charts.light.data.datasets.filter(s => !/cross|star/.test(s.pointStyle)).map(s => [s.label, s.pointBackgroundColor])")
         self.assertEqual({label: middles[label] for label, _ in fills if label in middles}, {label: fill for label, fill in fills if label in middles})
 
+    def test_logarithmic_axes_have_round_ticks_whose_labels_do_not_meet(self) -> None:
+        expected = {390: ["1", "10", "100"], 1440: ["0.5", "1", "2", "5", "10", "20", "50", "100", "200"]}
+        for width, height in SIZES:
+            self.show(width, height)
+            labels = self.browser.evaluate("Object.values(charts).map(c => ['x', 'y'].filter(a => c.scales[a].type === 'logarithmic')"
+                                           ".map(a => c.scales[a].ticks.map(t => [t.label, c.scales[a].getPixelForValue(t.value)])))")
+            self.assertEqual([label for label, _ in labels[0][0]], expected[width])
+            for axis in (axis for chart in labels for axis in chart):
+                self.assertGreaterEqual(len(axis), 2)
+                for (label, place), (_, following) in zip(axis, axis[1:]):
+                    self.assertRegex(label, r"^(0\.0*)?[125]0*$")
+                    self.assertGreater(abs(following - place), 16, axis)
+
     def test_on_a_phone_what_is_wide_scrolls_and_stays_readable(self) -> None:
         self.show(*SIZES[0])
         self.assertGreaterEqual(self.browser.evaluate("charts.hostile.width"), 560)
