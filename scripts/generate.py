@@ -3,7 +3,7 @@
 """Writes the lists of read-outs, parameters, their limits and RTL files that SystemVerilog, C++, CMake, FuseSoC, Bender, lint and
 docs/user/configuration.md need, from readouts.toml, parameters.toml and hdl/dtof.f, and the registers of dtof_subsystem for RTL, C, others' tools and the page on integration, from
 hdl/subsystem/registers.toml, and the table of studies in docs/user/commands.md, from studies.toml, and the version in the files by which
-the project is cited, from CMakeLists.txt. --check only says which are stale."""
+the project is cited, from CMakeLists.txt, and the notebooks of the Python examples, from their scripts. --check only says which are stale."""
 
 import re
 import sys
@@ -13,6 +13,7 @@ from pathlib import Path
 
 import file_lists
 import limits
+import notebooks
 import register_maps
 import registers
 import release
@@ -380,6 +381,7 @@ def main() -> int:
             COMMANDS: studies_table(current[COMMANDS]),
             release.CITATION: citation,
             release.ZENODO: release.zenodo(citation),
+            **notebooks.files(ROOT),
         }
         differences = [difference for top in table.tops
                        for difference in check_top(top, (ROOT / rtl_of(top)).read_text(encoding="utf-8"), table)]

@@ -33,8 +33,9 @@ for purpose in "$@"; do
     sweep) packages+=(snakemake) ;;             # runs the jobs of a sweep, for make sweep only
     slurm) packages+=(snakemake slurm-wlm munge) ;;  # a cluster of one node, for make sweep-test only
     browser) packages+=(chromium) ;;            # opens the pages, for make test only
-    python)  # installs the Python module, draws the examples' pictures, brings files for tests of the readers, for make test only
-      packages+=(python3-venv python3-pip python3-setuptools python3-wheel python3-matplotlib python3-scipy python3-h5py-serial) ;;
+    python)  # installs the Python module, draws the examples' pictures, runs the notebooks, brings files for tests of the readers, for make test only
+      packages+=(python3-venv python3-pip python3-setuptools python3-wheel python3-matplotlib python3-scipy python3-h5py-serial
+        python3-nbformat python3-nbclient python3-ipykernel) ;;
     learning) packages+=(libdlib-dev) ;;        # trains the enlarger's weights, for make train-enlarger only
     page) packages+=(npm) ;;                    # fetches the plotting library of make report's pages, for .ci/pages only
     slang) packages+=(npm) ;;                   # fetches slang, for make lint-slang only

@@ -2,9 +2,9 @@
 # %% [markdown]
 # # First picture
 #
-# A room, the sensor of the thesis, three read-outs. Jupyter, VS Code and Spyder open this file as a notebook, cell by cell;
-# `python3 first_picture.py` runs it as a whole. Pictures are drawn where matplotlib is installed, into the folder of the first
-# argument or, without one, `build/python_examples`.
+# A room, the sensor of the thesis, three read-outs. `first_picture.ipynb` is the notebook; `python3 first_picture.py` runs the same cells as
+# a script. Pictures are drawn where matplotlib is installed. Files go to the folder of the script's first argument, or else to
+# `build/python_examples`.
 
 # %%
 import sys
@@ -14,14 +14,15 @@ import numpy as np
 
 import dtof
 
+as_script = "ipykernel" not in sys.modules  # a notebook's arguments and pictures are those of Jupyter
 try:
     import matplotlib
-    matplotlib.use("Agg" if "ipykernel" not in sys.modules else matplotlib.get_backend())
+    matplotlib.use("Agg" if as_script else matplotlib.get_backend())
     from matplotlib import pyplot
 except ImportError:  # figures are printed, pictures are not drawn
     pyplot = None
 
-out = Path(sys.argv[1] if len(sys.argv) == 2 else "build/python_examples")
+out = Path(sys.argv[1] if as_script and len(sys.argv) == 2 else "build/python_examples")
 out.mkdir(parents=True, exist_ok=True)
 
 # %% [markdown]

@@ -12,14 +12,15 @@ import numpy as np
 
 import dtof
 
+as_script = "ipykernel" not in sys.modules  # a notebook's arguments and pictures are those of Jupyter
 try:
     import matplotlib
-    matplotlib.use("Agg" if "ipykernel" not in sys.modules else matplotlib.get_backend())
+    matplotlib.use("Agg" if as_script else matplotlib.get_backend())
     from matplotlib import pyplot
 except ImportError:  # figures are printed, pictures are not drawn
     pyplot = None
 
-out = Path(sys.argv[1] if len(sys.argv) == 2 else "build/python_examples")
+out = Path(sys.argv[1] if as_script and len(sys.argv) == 2 else "build/python_examples")
 out.mkdir(parents=True, exist_ok=True)
 
 # %% [markdown]

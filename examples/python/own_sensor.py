@@ -19,14 +19,15 @@ import numpy as np
 
 import dtof
 
+as_script = "ipykernel" not in sys.modules  # a notebook's arguments and pictures are those of Jupyter
 try:
     import matplotlib
-    matplotlib.use("Agg" if "ipykernel" not in sys.modules else matplotlib.get_backend())
+    matplotlib.use("Agg" if as_script else matplotlib.get_backend())
     from matplotlib import pyplot
 except ImportError:  # figures are printed, pictures are not drawn
     pyplot = None
 
-out = Path(sys.argv[1] if len(sys.argv) == 2 else "build/python_examples")
+out = Path(sys.argv[1] if as_script and len(sys.argv) == 2 else "build/python_examples")
 out.mkdir(parents=True, exist_ok=True)
 
 # %% [markdown]
@@ -147,7 +148,8 @@ if pyplot is not None:
 # and `dtof product` writes a folder for an integrator. The program is looked for in the folder DTOF_BIN, in PATH and where `make` puts it.
 
 # %%
-places = [os.environ.get("DTOF_BIN", ""), os.environ.get("PATH", ""), str(Path.cwd() / "build" / "cpp" / "bin")]
+built = [str(folder / "build" / "cpp" / "bin") for folder in (Path.cwd(), *Path.cwd().parents)]
+places = [os.environ.get("DTOF_BIN", ""), os.environ.get("PATH", ""), *built]
 program = shutil.which("dtof", path=os.pathsep.join(filter(None, places)))
 if program is None:
     print("no chip: the program dtof is not found; build it with make, or put its folder into PATH")

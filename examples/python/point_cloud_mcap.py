@@ -17,7 +17,8 @@ import numpy.typing as npt
 
 import dtof
 
-out = Path(sys.argv[1] if len(sys.argv) == 2 else "build/python_examples")
+as_script = "ipykernel" not in sys.modules  # a notebook's arguments are those of Jupyter
+out = Path(sys.argv[1] if as_script and len(sys.argv) == 2 else "build/python_examples")
 out.mkdir(parents=True, exist_ok=True)
 
 # %% [markdown]

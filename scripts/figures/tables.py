@@ -150,13 +150,15 @@ def frames(tables: Tables) -> Figures:
 
 
 def pareto(tables: Tables) -> Figures:
+    """Everything that the plot of area against accuracy shows."""
     found: Figures = {}
     for row in tables.rows("pareto.csv"):
+        name = f"pareto.{tables.name(row['title'])}"
+        found[f"{name}.mm2"] = Figure(row["mm2"], "mm2")
+        found[f"{name}.bits_per_pixel"] = Figure(row["bits_per_pixel"], "bits")
         for light in ("indoor", "outdoor"):
-            found[f"pareto.{tables.name(row['title'])}.{light}_above_3_percent"] = \
-                Figure(percent(row[f"{light}_above_3_percent"]), "%")
-            found[f"pareto.{tables.name(row['title'])}.{light}_rmse_percent"] = \
-                Figure(percent(row[f"{light}_relative_rmse"]), "%")
+            found[f"{name}.{light}_above_3_percent"] = Figure(percent(row[f"{light}_above_3_percent"]), "%")
+            found[f"{name}.{light}_rmse_percent"] = Figure(percent(row[f"{light}_relative_rmse"]), "%")
     return found
 
 

@@ -68,7 +68,8 @@
       make("span", { textContent: `${number(value)} %${interval} ${measure}` }),
       make("span", { textContent: [`${row.light} klux`, typeof row.x === "string" ? row.x : "", row.note].filter(Boolean).join(", ") }),
       make("code", { textContent: plot.command }),
-      make("small", { textContent: row.figure && index === 0 ? `${row.figure} in reports/figures.json` : plot.table })];
+      make("small", { textContent: row.figures?.[index] ? `${row.figures[index]} in reports/figures.json` : plot.table }),
+      make("small", { textContent: `inputs ${plot.inputs}, commit ${plot.commit}` })];
     if (plot.stale.length > 0) {
       lines.push(make("small", { className: "old", textContent: "Measured before what lies here now." }));
     }
@@ -169,12 +170,18 @@
   }
 
   const power = (value) => Math.log10(value);
-  const label = (value) => [1, 2, 5].some((digit) => Math.abs(power(value / digit) - Math.round(power(value / digit))) < 1e-6) ?
-    number(value) : "";
+
+  /** The ticks of a logarithmic axis: 1, 2 and 5 of each decade; where those are too close, 1 alone. An axis within a decade keeps its own. */
+  function keepRoundTicks(scale) {
+    const room = scale.isHorizontal() ? scale.chart.width / 45 : scale.chart.height / 20;
+    const digits = 3 * power(scale.max / scale.min) <= room ? [1, 2, 5] : [1];
+    const round = scale.ticks.filter(({ value }) => digits.some((digit) => Math.abs(power(value / digit) - Math.round(power(value / digit))) < 1e-6));
+    scale.ticks = round.length > 1 ? round : scale.ticks;
+  }
 
   function axis(title, log, more = {}) {
     const shared = { title: { display: Boolean(title), text: title }, ...more };
-    return log ? { type: "logarithmic", ...shared, ticks: { callback: label, autoSkip: true, maxRotation: 0 } } :
+    return log ? { type: "logarithmic", ...shared, afterBuildTicks: keepRoundTicks, ticks: { callback: number, autoSkip: true, maxRotation: 0 } } :
       { type: "linear", ...shared };
   }
 

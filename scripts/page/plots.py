@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Data of the live plots: figures of reports/figures.json and of the tables under reports/, with the command that made each.
+"""Data of the live plots: figures of reports/figures.json, and for what is not a figure there, the tables under reports/.
 
-plots.js draws what is written here. A plot has rows; a row is a read-out at a light, with a value of each measure."""
+plots.js draws what is written here. A plot has rows; a row is a read-out at a light, with a value of each measure. Every plot names the report
+that measured it: command, digest of the inputs, commit (reports/digests.json)."""
 
 import json
 import re
@@ -20,6 +21,7 @@ FILE = "plots_data.js"
 ABOVE_3, ABOVE_10, RMSE = "off by more than 3 %", "off by more than 10 %", "relative rmse"
 LIGHTS = {"indoor": 14, "outdoor": 50}  # klux, as scripts/pareto.py has them
 TOGETHER = "all but the flat targets"
+QUOTED_SENSOR = "thesis"  # the sensor of the figures of scenes
 UNKNOWN_COLOUR, UNKNOWN_MARKER = "#555555", 7  # a title that no list of styles has
 
 Value = tuple[float, float | None, float | None]  # in per cent, and the ends of its interval at 95 %
@@ -33,7 +35,7 @@ class Row:
     values: dict[str, Value]  # by measure
     at: dict[str, str] = field(default_factory=dict)  # by choice
     note: str = ""  # what else the plot says of it
-    figure: str = ""  # name in reports/figures.json, of the first measure
+    figures: dict[str, str] = field(default_factory=dict)  # by measure, the name in reports/figures.json
     small: bool = False  # a variant
 
 
@@ -49,8 +51,15 @@ class Plot:
     measures: tuple[str, ...]
     picture: str = ""  # under reports/, shown where the plot is not live
     command: str = ""
+    inputs: str = ""  # digest of what the report was measured on
+    commit: str = ""
     stale: tuple[str, ...] = ()
     rows: list[Row] = field(default_factory=list)
+
+    @property
+    def source(self) -> str:
+        """The file that has every point of the plot."""
+        return store.FILE if self.rows and all(set(self.measures) <= row.figures.keys() for row in self.rows) else f"reports/{self.table}"
 
 
 class Titles:
@@ -80,19 +89,35 @@ def rows_of(root: Path, name: str) -> list[dict[str, str]]:
     return Tables(root).rows(name) if (root / "reports" / name).is_file() else []
 
 
+class Figures:
+    """reports/figures.json, where a page's value stands once."""
+
+    def __init__(self, root: Path) -> None:
+        self.known, self.tables = store.load(root), Tables(root)
+
+    def number(self, name: str) -> float:
+        return float(self.known[name].value)
+
+    def values(self, names: dict[str, str]) -> tuple[dict[str, Value], dict[str, str]]:
+        """Value and name of each measure that has a figure."""
+        found = {measure: name for measure, name in names.items() if name in self.known}
+        return {measure: (self.number(name), None, None) for measure, name in found.items()}, found
+
+
 # ---- Plots -----------------------------------------------------------------------------------------------
 
 def area(root: Path, _titles: Titles) -> Iterator[Row]:
-    figures = store.load(root)
+    """Rows of figures alone; the table has the titles."""
+    figures = Figures(root)
     for row in rows_of(root, "pareto.csv"):
-        name = f"pareto.{Tables(root).name(row['title'])}"
+        name = f"pareto.{figures.tables.name(row['title'])}"
         for light, klux in LIGHTS.items():
-            shown = f"{name}.{light}_above_3_percent"
-            if shown not in figures:
+            values, names = figures.values({ABOVE_3: f"{name}.{light}_above_3_percent", RMSE: f"{name}.{light}_rmse_percent"})
+            if not values or f"{name}.mm2" not in figures.known:
                 continue
-            above, rmse = float(figures[shown].value), float(figures[f"{name}.{light}_rmse_percent"].value)
-            yield Row(row["title"], klux, float(row["mm2"]), {ABOVE_3: (above, None, None), RMSE: (rmse, None, None)},
-                      note=f"{float(row['mm2']):.2f} mm2, {row['bits_per_pixel']} bits a pixel", figure=shown, small=row["variant"] == "1")
+            mm2 = figures.number(f"{name}.mm2")
+            yield Row(row["title"], klux, mm2, values, note=f"{mm2:.2f} mm2, {figures.known[f'{name}.bits_per_pixel'].value} bits a pixel",
+                      figures=names, small=row["variant"] == "1")
 
 
 def scenes(root: Path, _titles: Titles) -> Iterator[Row]:
@@ -111,10 +136,14 @@ def scenes(root: Path, _titles: Titles) -> Iterator[Row]:
         square = sum(int(row["pixels"]) * float(row["relative_rmse"]) ** 2 for row in rows) / pixels
         yield Row(estimator, int(klux), int(klux), values | {RMSE: (100 * square ** 0.5, None, None)},
                   {"scene": TOGETHER, "sensor": sensor}, f"{TOGETHER}, sensor {sensor}, {pixels} pixels")
+    figures = Figures(root)
     for row in measured:
-        values = {measure: (100 * float(row[column]), None, None) for measure, column in columns.items()}
-        yield Row(row["estimator"], int(row["klux"]), int(row["klux"]), values | {RMSE: (100 * float(row["relative_rmse"]), None, None)},
-                  {"scene": row["scene"], "sensor": row["sensor"]}, f"{row['scene']}, sensor {row['sensor']}, {row['pixels']} pixels")
+        values = {measure: (100 * float(row[column]), None, None) for measure, column in (columns | {RMSE: "relative_rmse"}).items()}
+        name = f"scenes.{figures.tables.name(row['estimator'])}.{figures.tables.name(row['scene'])}_{row['klux']}_klux"
+        quoted, names = figures.values({measure: f"{name}_{column}" for measure, column in (
+            (ABOVE_3, "above_3_percent"), (ABOVE_10, "above_10_percent"))} if row["sensor"] == QUOTED_SENSOR else {})
+        yield Row(row["estimator"], int(row["klux"]), int(row["klux"]), values | quoted, {"scene": row["scene"], "sensor": row["sensor"]},
+                  f"{row['scene']}, sensor {row['sensor']}, {row['pixels']} pixels", names)
 
 
 def hostile(root: Path, titles: Titles) -> Iterator[Row]:
@@ -141,7 +170,7 @@ def interval(row: dict[str, str], name: str) -> Value:
 PLOTS: tuple[tuple[Plot, Callable[[Path, Titles], Iterator[Row]]], ...] = (
     (Plot("area", "Area against accuracy", "All scenes except flat targets, sensor thesis. Small marks are variants of a read-out.",
           "pareto", "pareto.csv", "points", "area of 200 x 160 pixels, mm2", (ABOVE_3, RMSE), "pareto.svg"), area),
-    (Plot("light", "Errors over light", "Each read-out on one scene, from dusk to bright sun.",
+    (Plot("light", "Errors over light", "Each read-out on all scenes together or on one of them, from dusk to bright sun.",
           "scenes", "scenes.csv", "lines", "background light, klux", (ABOVE_3, ABOVE_10, RMSE)), scenes),
     (Plot("hostile", "Hostile conditions", "Glass, fog, other lasers, motion and skew; bars are intervals at 95 %. \"told\" in a label: the user has "
           "set the read-out's parameters for the sensor and its surroundings.",
@@ -170,11 +199,13 @@ def stale_lines(root: Path) -> dict[str, tuple[str, ...]]:
 
 
 def collect(root: Path) -> tuple[list[Plot], Titles]:
-    titles, stale = Titles(), stale_lines(root)
+    titles, stale, measured = Titles(), stale_lines(root), staleness.measured(root)
     commands = {name: report.command for name, report in load(root).items()} if (root / LIST).is_file() else {}
     found = []
     for plot, rows in PLOTS:
-        found.append(replace(plot, command=commands.get(plot.report, ""), stale=stale.get(plot.report, ()), rows=list(rows(root, titles))))
+        known = measured.get(plot.report, staleness.Measured("", {}))
+        found.append(replace(plot, command=commands.get(plot.report, ""), inputs=known.digest, commit=known.commit,
+                             stale=stale.get(plot.report, ()), rows=list(rows(root, titles))))
     return found, titles
 
 
@@ -182,8 +213,8 @@ def as_script(plots: list[Plot], titles: Titles) -> str:
     """The data as a script, because a page opened from a disk can load scripts but no other files."""
     families = {titles.family(row.label) for plot in plots for row in plot.rows}
     data = {"readouts": titles.marks(families), "lights": sorted({row.light for plot in plots for row in plot.rows}), "plots": [
-        {"name": plot.name, "title": plot.title, "kind": plot.kind, "xTitle": plot.x_title, "command": plot.command, "stale": plot.stale,
-         "table": f"reports/{plot.table}", "measures": plot.measures, "choices": choices(plot),
+        {"name": plot.name, "title": plot.title, "kind": plot.kind, "xTitle": plot.x_title, "report": plot.report, "command": plot.command,
+         "inputs": plot.inputs, "commit": plot.commit, "stale": plot.stale, "table": f"reports/{plot.table}", "measures": plot.measures, "choices": choices(plot),
          "rows": [as_entry(plot, row, titles) for row in plot.rows]} for plot in plots]}
     return f"window.plotsData = {json.dumps(data, ensure_ascii=False, separators=(',', ':'))};\n"
 
@@ -191,9 +222,9 @@ def as_script(plots: list[Plot], titles: Titles) -> str:
 def as_entry(plot: Plot, row: Row, titles: Titles) -> dict[str, object]:
     """A row as JSON, without empty values."""
     entry = {"label": row.label, "readout": titles.family(row.label), "light": row.light, "x": row.x, "at": row.at, "note": row.note,
-             "figure": row.figure, "small": row.small,
+             "figures": [row.figures.get(measure, "") for measure in plot.measures] if row.figures else [], "small": row.small,
              "values": [[None if end is None else round(end, 6) for end in row.values[measure]] for measure in plot.measures]}
-    return {key: value for key, value in entry.items() if value not in ("", {}, False) or key == "x"}
+    return {key: value for key, value in entry.items() if value not in ("", {}, [], False) or key == "x"}
 
 
 def choices(plot: Plot) -> dict[str, list[str]]:

@@ -26,8 +26,8 @@ PLAYGROUND = "playground.html"
 LIBRARY, LICENCE = "chart.js", "chart.js.LICENSE.md"
 GLOSSARY, DOCUMENTS = "docs/reference/glossary.md", "docs/README.md"
 WORD_ROW = re.compile(r"<tr>\n<td>(?P<word>[^<]*)</td>")
-# Copied beside the pages where a report links to them; any other file is named only.
-COPIED = (".csv", ".png", ".svg")
+# Copied beside the pages where a page links to them; any other file is named only.
+COPIED = (".csv", ".png", ".svg", ".ipynb")
 
 
 def stale_lines(plot: plots.Plot) -> str:
@@ -325,7 +325,8 @@ class Site:
         parts = [f'<section id="{plot.name}"><h2>{html.escape(plot.title)}</h2>']
         if report:
             whole = f', <a href="{self.whole_page(report)}">report</a>' if self.sources[report.name] else ""
-            parts.append(f'<p class="made">Made by {self.command(report.target, PLOTS)}{whole}, from <code>reports/{plot.table}</code>.</p>')
+            measured = f"; commit <code>{plot.commit}</code>, inputs <code>{plot.inputs}</code>" if plot.commit else ""
+            parts.append(f'<p class="made">Made by {self.command(report.target, PLOTS)}{whole}, from <code>{plot.source}</code>{measured}.</p>')
         parts += [stale_lines(plot), f"<p>{html.escape(plot.says)}</p>"]
         picture = self.root / "reports" / plot.picture
         if not plot.rows:

@@ -51,9 +51,14 @@ def cards(found: list[Door]) -> str:
         for door in found) + "</div>"
 
 
+def words(command: str) -> str:
+    """A command whose lines end between words, and not behind the hyphens of an option."""
+    return " ".join(f'<span class="word">{html.escape(word)}</span>' for word in command.split(" "))
+
+
 def commands_table(door: Door) -> str:
     if not door.commands:
         return ""
-    rows = "".join(f"<tr><td><code>{html.escape(command)}</code></td><td>{html.escape(does)}</td></tr>" for command, does in door.commands)
+    rows = "".join(f"<tr><td><code>{words(command)}</code></td><td>{html.escape(does)}</td></tr>" for command, does in door.commands)
     return ('<div class="scroll" tabindex="0"><table class="commands"><thead><tr><th>command</th><th>what it does</th></tr></thead>'
             f"<tbody>{rows}</tbody></table></div>")

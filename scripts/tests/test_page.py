@@ -339,6 +339,36 @@ class InTheBrowser(unittest.TestCase):
                 with self.subTest(page=str(page.relative_to(self.out)), width=width):
                     self.assertLessEqual(shown, width)
 
+    def test_on_a_phone_tables_break_between_words(self) -> None:
+        for page, cells in (("index.html", ".commands .word"), ("results.html", ".scroll tbody td:first-child")):
+            self.show(self.out / page, width=390)
+            words = self.browser.evaluate(f"""[...document.querySelectorAll({json.dumps(cells)})].flatMap(cell => {{
+                const texts = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT), range = document.createRange(), found = [];
+                for (let text = texts.nextNode(); text; text = texts.nextNode()) {{
+                  for (const {{ 0: word, index }} of text.data.matchAll(/\\S+/g)) {{
+                    range.setStart(text, index);
+                    range.setEnd(text, index + word.length);
+                    found.push([word, range.getClientRects().length]);
+                  }}
+                }}
+                return found;
+              }})""")
+            self.assertGreater(len(words), 20)
+            # In the tables of reports a word may break behind a hyphen, and a word wider than the column may break anywhere.
+            may = re.compile(r"\w-\w|.{18}") if page == "results.html" else re.compile(r"(?!)")
+            self.assertEqual([word for word, lines in words if lines != 1 and not may.search(word)], [], page)
+
+    def test_on_a_phone_a_command_has_the_whole_width(self) -> None:
+        for page in ("index.html", "commands.html"):
+            self.show(self.out / page, width=390)
+            places = self.browser.evaluate("[...document.querySelectorAll('.commands tbody tr')].map(row => [...row.cells].slice(0, 2).map("
+                                           "cell => { const { left, right, top } = cell.getBoundingClientRect(); return [left, right, top]; }))")
+            self.assertGreater(len(places), 4)
+            for command, does in places:
+                self.assertEqual(command[:2], does[:2])
+                self.assertGreater(command[1] - command[0], 340)
+                self.assertLess(command[2], does[2])
+
     def test_light_and_dark(self) -> None:
         papers = {}
         for dark in (False, True):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The live plots: what they are made of, their library, and in a browser: a figure under the mouse, filters, pictures instead."""
 
+import functools
 import json
 import os
 import tempfile
@@ -29,6 +30,11 @@ REPORTS = ('[report.scenes]\ncommand = "make scenes"\nminutes = 10\npages = ["sc
            '[report.pareto]\ncommand = "make pareto"\nminutes = 0.1\npages = ["pareto.md"]\ninputs = ["reports/scenes.csv"]\n')
 
 
+@functools.cache
+def plots_here() -> list[plots.Plot]:
+    return plots.collect(ROOT)[0]
+
+
 class Tree(unittest.TestCase):
     def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory()
@@ -47,16 +53,48 @@ class Tree(unittest.TestCase):
 
 
 class Figures(Tree):
+    def record(self, report: str, **figures: str) -> None:
+        """Stores figures whose names have __ for dots."""
+        store.record(self.root, report, f"make {report}", "1234", {name.replace("__", "."): store.Figure(value) for name, value in figures.items()})
+
     def test_area_has_the_figures_of_the_file_of_figures(self) -> None:
         self.assertEqual(self.rows("area"), [])
-        store.record(self.root, "pareto", "make pareto", "1234", {
-            f"pareto.{name}.{light}_{what}_percent": store.Figure(value, "%") for name, light, what, value in (
-                ("ezpointer", "indoor", "above_3", "66.89"), ("ezpointer", "indoor", "rmse", "24.52"),
-                ("ezpointer", "outdoor", "above_3", "73.29"), ("ezpointer", "outdoor", "rmse", "25.49"))})
+        self.record("pareto", pareto__ezpointer__indoor_above_3_percent="66.89", pareto__ezpointer__indoor_rmse_percent="24.52",
+                    pareto__ezpointer__outdoor_above_3_percent="73.29", pareto__ezpointer__outdoor_rmse_percent="25.49",
+                    pareto__ezpointer__mm2="1.3201", pareto__ezpointer__bits_per_pixel="14")
         indoor, outdoor = self.rows("area")
         self.assertEqual((indoor.label, indoor.light, indoor.x, indoor.small), ("ezPointer", 14, 1.3201, False))
         self.assertEqual(indoor.values, {plots.ABOVE_3: (66.89, None, None), plots.RMSE: (24.52, None, None)})
-        self.assertEqual((indoor.figure, outdoor.light), ("pareto.ezpointer.indoor_above_3_percent", 50))
+        self.assertEqual((indoor.note, outdoor.light), ("1.32 mm2, 14 bits a pixel", 50))
+        self.assertEqual(outdoor.figures, {plots.ABOVE_3: "pareto.ezpointer.outdoor_above_3_percent", plots.RMSE: "pareto.ezpointer.outdoor_rmse_percent"})
+        # The table says otherwise: the figures count.
+        self.record("pareto", pareto__ezpointer__indoor_above_3_percent="12.50", pareto__ezpointer__indoor_rmse_percent="4.00",
+                    pareto__ezpointer__mm2="2.5000", pareto__ezpointer__bits_per_pixel="20")
+        (changed,) = self.rows("area")
+        self.assertEqual((changed.x, changed.note), (2.5, "2.50 mm2, 20 bits a pixel"))
+        self.assertEqual(changed.values, {plots.ABOVE_3: (12.5, None, None), plots.RMSE: (4, None, None)})
+        self.assertEqual(next(plot for plot in plots.collect(self.root)[0] if plot.name == "area").source, store.FILE)
+
+    def test_a_figure_of_a_scene_counts_instead_of_the_tables_value(self) -> None:
+        self.write("reports/scenes.csv", SCENES + "other,14,room,SiFH,300,0.4,0.1,0.3\n")
+        self.record("scenes", scenes__sifh__room_14_klux_above_3_percent="41.00")
+        for row in self.rows("light"):
+            quoted = (row.at["scene"], row.at["sensor"]) == ("room", "thesis")
+            self.assertEqual(row.figures, {plots.ABOVE_3: "scenes.sifh.room_14_klux_above_3_percent"} if quoted else {})
+            if row.at["scene"] == "room":
+                self.assertEqual([row.values[measure][0] for measure in (plots.ABOVE_3, plots.ABOVE_10, plots.RMSE)], [41 if quoted else 40, 10, 30])
+        self.assertEqual(next(plot for plot in plots.collect(self.root)[0] if plot.name == "light").source, "reports/scenes.csv")
+
+    def test_figures_and_tables_of_this_tree_agree(self) -> None:
+        for table, columns in {"scenes.csv": {"above_3_percent": plots.ABOVE_3, "above_10_percent": plots.ABOVE_10}}.items():
+            found = {(row["sensor"], row["scene"], row["klux"], row["estimator"]): row for row in plots.rows_of(ROOT, table)}
+            light = next(plot for plot in plots_here() if plot.name == "light")
+            quoted = [row for row in light.rows if row.figures]
+            self.assertGreater(len(quoted), 4)
+            for row in quoted:
+                values = found[row.at["sensor"], row.at["scene"], str(row.light), row.label]
+                for column, measure in columns.items():
+                    self.assertAlmostEqual(row.values[measure][0], 100 * float(values[column]), delta=0.005 + 1e-9, msg=row.figures[measure])
 
     def test_scenes_together_are_weighted_by_pixels_and_leave_the_flat_targets_out(self) -> None:
         rows = {row.at["scene"]: row for row in self.rows("light")}
@@ -93,6 +131,25 @@ class Figures(Tree):
         lines = plots.stale_lines(self.root)
         self.assertEqual(lines["pareto"], lines["scenes"])
         self.assertEqual(lines["pareto"], ("scenes: Measured before: changes in a. make scenes (10 minutes) renews these figures.",))
+
+    def test_a_plot_names_the_inputs_and_the_commit_of_its_report(self) -> None:
+        report = load(self.root)["scenes"]
+        staleness.begin(self.root, report, SourceTree(self.root))
+        recorded = staleness.record(self.root, report)
+        entry = staleness.measured(self.root)["scenes"]
+        found, titles = plots.collect(self.root)
+        (written,) = [plot for plot in json.loads(plots.as_script(found, titles).split(" = ", 1)[1].rstrip(";\n"))["plots"] if plot["name"] == "light"]
+        self.assertEqual((written["report"], written["command"], written["inputs"], written["commit"]),
+                         ("scenes", "make scenes", recorded.digest, entry.commit))
+        self.assertEqual(len(recorded.digest), 16)
+
+    def test_every_plot_of_this_tree_names_what_it_was_measured_on(self) -> None:
+        known, listed = staleness.measured(ROOT), load(ROOT)
+        for plot in plots_here():
+            self.assertEqual((plot.command, plot.inputs, plot.commit), (listed[plot.report].command, known[plot.report].digest, known[plot.report].commit))
+            self.assertRegex(plot.inputs, r"^[0-9a-f]{16}$")
+            self.assertRegex(plot.commit, r"^[0-9a-f]{12}$")
+            self.assertTrue(plot.rows)
 
     def test_the_plots_are_reports_of_the_list(self) -> None:
         listed = load(ROOT)
@@ -249,7 +306,23 @@ class InTheBrowser(Shown):
             self.assertGreaterEqual(left, 0)
             self.assertLessEqual(right, width)
             self.fits(width)
-            self.assertIn("make hostile-scenes", self.point_at("hostile", "matched filter at 14 klux"))
+            hostile = self.point_at("hostile", "matched filter at 14 klux")
+            known = staleness.measured(ROOT)["hostile_scenes"]
+            for part in ("make hostile-scenes", "reports/data/hostile_scenes.csv.gz", f"inputs {known.digest}, commit {known.commit}"):
+                self.assertIn(part, hostile)
+
+    def test_each_measure_has_its_own_figure(self) -> None:
+        self.show(1440, 900)
+        self.choose("area", "measure", plots.RMSE)
+        figure = store.load(ROOT)["pareto.sifh.indoor_rmse_percent"]
+        shown = self.point_at("area", "SiFH at 14 klux")
+        for part in (f"{float(figure.value):.3g} % {plots.RMSE}", "pareto.sifh.indoor_rmse_percent in reports/figures.json"):
+            self.assertIn(part, shown)
+        self.choose("light", "scene", "room")
+        shown = self.point_at("light", "histogram", 1)
+        self.assertIn("scenes.histogram.room_14_klux_above_3_percent in reports/figures.json", shown)
+        self.choose("light", "measure", plots.RMSE)
+        self.assertNotIn("reports/figures.json", self.point_at("light", "histogram", 1))
 
     def test_a_figure_with_an_interval_shows_it(self) -> None:
         self.show(1440, 900)
@@ -337,6 +410,19 @@ class InTheBrowser(Shown):
                                         "[...c.getContext('2d').getImageData(10, 10, 1, 1).data.slice(0, 3)].map(v => v.toString(16).padStart(2, '0')).join('')]))")
         fills = self.browser.evaluate("charts.light.data.datasets.filter(s => !/cross|star/.test(s.pointStyle)).map(s => [s.label, s.pointBackgroundColor])")
         self.assertEqual({label: middles[label] for label, _ in fills if label in middles}, {label: fill for label, fill in fills if label in middles})
+
+    def test_logarithmic_axes_have_round_ticks_whose_labels_do_not_meet(self) -> None:
+        expected = {390: ["1", "10", "100"], 1440: ["0.5", "1", "2", "5", "10", "20", "50", "100", "200"]}
+        for width, height in SIZES:
+            self.show(width, height)
+            labels = self.browser.evaluate("Object.values(charts).map(c => ['x', 'y'].filter(a => c.scales[a].type === 'logarithmic')"
+                                           ".map(a => c.scales[a].ticks.map(t => [t.label, c.scales[a].getPixelForValue(t.value)])))")
+            self.assertEqual([label for label, _ in labels[0][0]], expected[width])
+            for axis in (axis for chart in labels for axis in chart):
+                self.assertGreaterEqual(len(axis), 2)
+                for (label, place), (_, following) in zip(axis, axis[1:]):
+                    self.assertRegex(label, r"^(0\.0*)?[125]0*$")
+                    self.assertGreater(abs(following - place), 16, axis)
 
     def test_on_a_phone_what_is_wide_scrolls_and_stays_readable(self) -> None:
         self.show(*SIZES[0])
