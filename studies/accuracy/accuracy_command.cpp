@@ -374,6 +374,34 @@ void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
   fmt::print("{}{}Tables are in {}\n", heading, report, options.out);
 }
 
+/// Checks the options and measures the sweep, the map or the cube that they name.
+void run_command(const AccuracyOptions& options, const CLI::App& command) {
+  if (!options.precision_percent) {
+    refuse_without_effect(command, "--max-frames", "it limits the frames of --precision");
+    refuse_without_effect(command, "--rare-outliers", "it limits what --precision waits for");
+  }
+  options.sensor.refuse_options_without_effect(command);
+  check_run_options(options.run);
+  if (options.run.columns != "all" || options.run.rows != "all" || !options.run.trace.empty()) {
+    throw InputError("accuracy: --columns, --rows and --trace do not apply, every frame is read out");
+  }
+  if (!options.maps.depth.empty() && !options.cube.file.empty()) {
+    throw InputError("--depth and --cube contradict each other: choose one");
+  }
+  options.cube.check();
+  if (!options.maps.depth.empty()) {
+    run_over_map(options, command);
+  } else if (!options.maps.reflectivity.empty() || options.map_scales.metres_per_unit ||
+             options.map_scales.reflectivity_per_unit) {
+    throw InputError("accuracy: --reflectivity-map, --depth-scale and --reflectivity-scale need --depth");
+  } else if (!options.cube.file.empty()) {
+    refuse_without_effect(command, "--reflectivity", "a transient cube has its own light");
+    run_over_map(options, command);
+  } else {
+    run_accuracy_command(options);
+  }
+}
+
 }  // namespace
 
 void add_accuracy_command(CLI::App& app, const std::string& command_line) {
@@ -433,32 +461,7 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
   options->readout.add_to(*command);
   add_run_options(*command, options->run);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
-  command->callback([options, command] {
-    if (!options->precision_percent) {
-      refuse_without_effect(*command, "--max-frames", "it limits the frames of --precision");
-      refuse_without_effect(*command, "--rare-outliers", "it limits what --precision waits for");
-    }
-    options->sensor.refuse_options_without_effect(*command);
-    check_run_options(options->run);
-    if (options->run.columns != "all" || options->run.rows != "all" || !options->run.trace.empty()) {
-      throw InputError("accuracy: --columns, --rows and --trace do not apply, every frame is read out");
-    }
-    if (!options->maps.depth.empty() && !options->cube.file.empty()) {
-      throw InputError("--depth and --cube contradict each other: choose one");
-    }
-    options->cube.check();
-    if (!options->maps.depth.empty()) {
-      run_over_map(*options, *command);
-    } else if (!options->maps.reflectivity.empty() || options->map_scales.metres_per_unit ||
-               options->map_scales.reflectivity_per_unit) {
-      throw InputError("accuracy: --reflectivity-map, --depth-scale and --reflectivity-scale need --depth");
-    } else if (!options->cube.file.empty()) {
-      refuse_without_effect(*command, "--reflectivity", "a transient cube has its own light");
-      run_over_map(*options, *command);
-    } else {
-      run_accuracy_command(*options);
-    }
-  });
+  command->callback([options, command] { run_command(*options, *command); });
 }
 
 }  // namespace dtof
