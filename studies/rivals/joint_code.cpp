@@ -11,6 +11,7 @@
 
 #include "dtof/core/parallel.hpp"
 #include "dtof/core/random.hpp"
+#include "dtof/rival/harmonic_code.hpp"
 
 namespace dtof {
 namespace {
@@ -60,25 +61,11 @@ std::vector<double> light_powers(const LaserLimits& limits, const Waves& waves, 
   return powers;
 }
 
-/// expected_square_error() from the powers of the light at the harmonics.
-double square_error(const LaserLimits& limits, std::span<const int> harmonics,
-                    std::span<const double> powers) {
-  const double turn = turn_of(limits);
-  const double signal = limits.detections * limits.signal_share;
-  const double noise = std::sqrt(0.5 * limits.detections);
-  double slope = 0.0;
-  for (std::size_t i = 0; i < harmonics.size(); ++i) {
-    slope += powers[i] * (turn * harmonics[i]) * (turn * harmonics[i]);
-  }
-  double sum = 0.5 * limits.detections / (signal * signal * slope);
-  for (double x = 2.0 * limits.blur; x <= 0.5 * limits.codes; x += 0.5 * limits.blur) {
-    double square = 0.0;
-    for (std::size_t i = 0; i < harmonics.size(); ++i) {
-      square += 2.0 * powers[i] * (1.0 - std::cos(turn * harmonics[i] * x));
-    }
-    sum += x * x * std::erfc(0.5 * signal * std::sqrt(square) / noise / std::numbers::sqrt2);
-  }
-  return sum;
+CodeConditions conditions_of(const LaserLimits& limits) {
+  return {.codes = static_cast<double>(limits.codes),
+          .sigma = limits.blur,
+          .signal = limits.detections * limits.signal_share,
+          .events = limits.detections};
 }
 
 /// The nearest signal that is at least 0, at most the peak, and has the energy 1.
@@ -104,7 +91,8 @@ std::vector<double> within_limits(const LaserLimits& limits, std::vector<double>
 /// Search for light and harmonics.
 class JointSearch {
  public:
-  explicit JointSearch(const LaserLimits& limits) : limits_(limits), waves_(limits) {
+  explicit JointSearch(const LaserLimits& limits)
+      : limits_(limits), conditions_(conditions_of(limits)), waves_(limits) {
     constexpr double kNothing = 1e-3;
     while (largest_ < limits.codes / 2 - 1 && passed(limits, largest_) > kNothing) {
       ++largest_;
@@ -121,27 +109,9 @@ class JointSearch {
       for (const int harmonic : harmonics) {
         chosen.push_back(powers[static_cast<std::size_t>(harmonic)]);
       }
-      return square_error(limits_, harmonics, chosen);
+      return expected_square_error(conditions_, harmonics, chosen);
     };
-    double least = error(code.harmonics);
-    for (bool better = true; better;) {
-      better = false;
-      const std::vector<int> from = code.harmonics;
-      for (std::size_t place = 0; place < from.size(); ++place) {
-        for (int harmonic = 1; harmonic <= largest_; ++harmonic) {
-          if (std::ranges::count(from, harmonic) > 0) {
-            continue;
-          }
-          std::vector<int> tried = from;
-          tried[place] = harmonic;
-          if (const double found = error(tried); found < least) {
-            least = found;
-            code.harmonics = tried;
-            better = true;
-          }
-        }
-      }
-    }
+    code.harmonics = best_replacements(std::move(code.harmonics), largest_, error);
   }
 
   /// Steps along the gradient of the error's logarithm, back into the limits, until no step lowers it.
@@ -181,20 +151,21 @@ class JointSearch {
 
  private:
   [[nodiscard]] double error_logarithm(const LaserCode& code) const {
-    return std::log(
-        square_error(limits_, code.harmonics, light_powers(limits_, waves_, code.drive, code.harmonics)));
+    return std::log(expected_square_error(conditions_, code.harmonics,
+                                          light_powers(limits_, waves_, code.drive, code.harmonics)));
   }
 
   /// Direction in which the error's logarithm grows, as a unit vector.
   [[nodiscard]] std::vector<double> gradient(const LaserCode& code) const {
     constexpr double kDifference = 1e-5;
     const std::vector<double> powers = light_powers(limits_, waves_, code.drive, code.harmonics);
-    const double here = std::log(square_error(limits_, code.harmonics, powers));
+    const double here = std::log(expected_square_error(conditions_, code.harmonics, powers));
     std::vector<double> slope(code.drive.size(), 0.0);
     for (std::size_t i = 0; i < powers.size(); ++i) {
       std::vector<double> raised = powers;
       raised[i] += kDifference;
-      const double by_power = (std::log(square_error(limits_, code.harmonics, raised)) - here) / kDifference;
+      const double by_power =
+          (std::log(expected_square_error(conditions_, code.harmonics, raised)) - here) / kDifference;
       const int harmonic = code.harmonics[i];
       const double gain = passed(limits_, harmonic);
       const Wave factor = 2.0 * by_power * gain * gain * std::conj(waves_.spectrum(code.drive, harmonic));
@@ -228,8 +199,9 @@ class JointSearch {
   }
 
   LaserLimits limits_;
+  CodeConditions conditions_;
   Waves waves_;
-  int largest_ = 1;  ///< of the harmonics that the low-pass leaves
+  int largest_ = 1;  ///< largest of the harmonics that the low-pass leaves
 };
 
 /// Short pulses at random places: about as many codes as the energy needs, in groups of one 64th of the
@@ -320,8 +292,8 @@ std::vector<double> blurred_light(const LaserLimits& limits, std::span<const dou
 }
 
 double expected_square_error(const LaserLimits& limits, const LaserCode& code) {
-  return square_error(limits, code.harmonics,
-                      light_powers(limits, Waves(limits), code.drive, code.harmonics));
+  return expected_square_error(conditions_of(limits), code.harmonics,
+                               light_powers(limits, Waves(limits), code.drive, code.harmonics));
 }
 
 LaserCode best_code_of_the_shortest_pulse(const LaserLimits& limits, std::size_t counters) {

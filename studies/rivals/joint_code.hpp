@@ -29,9 +29,8 @@ std::vector<double> shortest_pulse(const LaserLimits& limits);
 /// The light that leaves the laser: the driver's signal behind the low-pass. The sum is 1.
 std::vector<double> blurred_light(const LaserLimits& limits, std::span<const double> drive);
 
-/// Expected squared error of a code, in codes. The bound of small errors, plus all wrong places with the
-/// probability that noise carries the counters more than half of the way, as in
-/// dtof/rival/optimised_code.hpp; instead of a pulse's spectrum the equation has that of the light.
+/// Expected squared error of a code, in codes: the equation of dtof/rival/harmonic_code.hpp with the spectrum
+/// of the light in place of a pulse's.
 double expected_square_error(const LaserLimits& limits, const LaserCode& code);
 
 /// Optimises light and code together, as Parra et al. do (TPAMI 2025, arXiv 2510.12123): the driver's signal

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "dtof/core/error.hpp"
+#include "dtof/rival/harmonic_code.hpp"
 #include "dtof/rival/pulse_shape.hpp"
 
 namespace dtof {
@@ -18,48 +19,27 @@ namespace {
 constexpr int kNumberBits = 4;
 constexpr std::array kDesignKlux = {2.0, 14.0, 50.0};
 
-/// What E depends on besides the harmonics.
-struct CodeDesign {
-  double codes;
-  double sigma;   ///< of the pulse, in codes
-  double signal;  ///< S
-  double events;  ///< N
-
-  CodeDesign(const SensorModel& sensor, double klux)
-      : codes(std::ldexp(1.0, sensor.np)), sigma(PulseShape(sensor).sigma()) {
-    constexpr double kLightSpeed = 299'792'458.0;
-    const double half_range_m = 0.25 * kLightSpeed * sensor.integration_time_s;
-    signal = sensor.acquisitions * sensor.signal_events(half_range_m, 1.0);
-    events = signal + sensor.acquisitions * sensor.background_events(klux, 1.0);
-  }
-
-  [[nodiscard]] double error(std::span<const int> harmonics) const {
-    const double turn = 2.0 * std::numbers::pi / codes;
-    const double noise = std::sqrt(0.5 * events);
-    std::vector<double> power;  // g^2
-    double slope = 0.0;
-    for (const int harmonic : harmonics) {
-      const double angle = turn * harmonic * sigma;
-      power.push_back(std::exp(-angle * angle));
-      slope += power.back() * (turn * harmonic) * (turn * harmonic);
-    }
-    double sum = 0.5 * events / (signal * signal * slope);
-    for (double x = 2.0 * sigma; x <= 0.5 * codes; x += 0.5 * sigma) {
-      double square = 0.0;
-      for (std::size_t i = 0; i < harmonics.size(); ++i) {
-        square += 2.0 * power[i] * (1.0 - std::cos(turn * harmonics[i] * x));
-      }
-      const double half_way = 0.5 * signal * std::sqrt(square) / noise;
-      sum += x * x * std::erfc(half_way / std::numbers::sqrt2);  // both signs: 2 Q
-    }
-    return sum;
-  }
-};
+CodeConditions white_target_at_half_range(const SensorModel& sensor, double klux) {
+  constexpr double kLightSpeed = 299'792'458.0;
+  const double half_range_m = 0.25 * kLightSpeed * sensor.integration_time_s;
+  const double signal = sensor.acquisitions * sensor.signal_events(half_range_m, 1.0);
+  return {.codes = std::ldexp(1.0, sensor.np),
+          .sigma = PulseShape(sensor).sigma(),
+          .signal = signal,
+          .events = signal + sensor.acquisitions * sensor.background_events(klux, 1.0)};
+}
 
 }  // namespace
 
 double expected_square_error(const SensorModel& sensor, double klux, std::span<const int> harmonics) {
-  return CodeDesign(sensor, klux).error(harmonics);
+  const CodeConditions conditions = white_target_at_half_range(sensor, klux);
+  const double turn = 2.0 * std::numbers::pi / conditions.codes;
+  std::vector<double> powers;
+  for (const int harmonic : harmonics) {
+    const double angle = turn * harmonic * conditions.sigma;
+    powers.push_back(std::exp(-angle * angle));
+  }
+  return expected_square_error(conditions, harmonics, powers);
 }
 
 double mean_square_error(const SensorModel& sensor, std::span<const int> harmonics) {
@@ -78,24 +58,9 @@ std::vector<int> optimised_harmonics(const SensorModel& sensor, int counters) {
       best.push_back(wave.harmonic);
     }
   }
-  double least = mean_square_error(sensor, best);
-  for (bool better = true; better;) {
-    better = false;
-    const std::vector<int> from = best;
-    for (std::size_t place = 0; place < from.size(); ++place) {
-      for (int harmonic = 1; harmonic <= most; ++harmonic) {
-        std::vector<int> tried = from;
-        tried[place] = harmonic;
-        const double error =
-            std::ranges::count(from, harmonic) > 0 ? least : mean_square_error(sensor, tried);
-        if (error < least) {
-          least = error;
-          best = tried;
-          better = true;
-        }
-      }
-    }
-  }
+  best = best_replacements(std::move(best), most, [&](std::span<const int> harmonics) {
+    return mean_square_error(sensor, harmonics);
+  });
   std::ranges::sort(best);
   return best;
 }

@@ -14,21 +14,10 @@ namespace dtof {
 /// (IEEE Sensors Journal 2025, doi 10.1109/JSEN.2025.3575784), whose table and training data are not public.
 /// It is this project's own optimisation, by a rule instead of a network and without random numbers.
 ///
-/// The code has cosine and sine of counters / 2 harmonics. A pulse of S events at distance 0 differs from one
-/// at distance x, in codes, by the counters' distance d, with g[h] the pulse's spectrum and T the range:
-///
-///     d(x)^2 = 2 S^2  sum over the harmonics h of g[h]^2 (1 - cos(2 pi h x / T))
-///
-/// N events spread over the range give each counter the variance N / 2. The expected squared error is the
-/// bound of small errors plus the wrong places, each with the probability that noise carries the counters
-/// more than half of the way:
-///
-///     E = N / 2 / (S^2 sum of (2 pi h g[h] / T)^2)  +  sum over x of x^2 Q(d(x) / 2 / sqrt(N / 2))
-///
-/// x takes both signs, in steps of half a standard deviation of the pulse, from two standard deviations on.
-/// S and N are those of a white target at half of the range. The search lowers the geometric mean of E in 2,
-/// 14 and 50 klux: it begins with the Gray-Fourier code, and replaces the harmonic whose replacement lowers
-/// the mean most until none does.
+/// The code has cosine and sine of counters / 2 harmonics. Its expected squared error E is that of
+/// dtof/rival/harmonic_code.hpp with the spectrum of the pulse, for a white target at half of the range. The
+/// search lowers the geometric mean of E in 2, 14 and 50 klux: it begins with the Gray-Fourier code, and
+/// replaces the harmonic whose replacement lowers the mean most until none does.
 std::vector<int> optimised_harmonics(const SensorModel& sensor, int counters);
 /// E for a set of harmonics.
 double expected_square_error(const SensorModel& sensor, double klux, std::span<const int> harmonics);
