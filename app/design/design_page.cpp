@@ -83,6 +83,16 @@ std::string product_note(const DesignOption& option) {
              : "";
 }
 
+/// How many frames compared the contenders, and whether that was enough.
+std::string contest_text(const DesignResult& result) {
+  std::string text;
+  if (result.contest_frames > 0) {
+    text = fmt::format("; the contenders in up to {} frames", result.contest_frames);
+  }
+  return text + (result.settled ? ", which settle the choice at 95 %"
+                                : ", which do not settle the choice at 95 %: it follows the measured shares");
+}
+
 }  // namespace
 
 std::string design_product(const DesignRequest& request, const DesignResult& result,
@@ -176,10 +186,9 @@ std::string design_recommendation(const DesignRequest& request, const DesignResu
   } else if (found.within.front() == *found.chosen) {
     text += fmt::format(", the fewest of the {} read-outs that keep the limits.", found.within.size());
   } else {
-    text += fmt::format(
-        ", which the intervals do not tell from {}'s {} %, in a smaller array ({:.2f} of {:.2f} mm2).",
-        title_of(first), share_text(first.best_known().worst().above_3_percent), chosen.candidate.cost.mm2,
-        first.candidate.cost.mm2);
+    text += fmt::format(", at most {:.2f} times the {} % of {}, in a smaller array ({:.2f} of {:.2f} mm2).",
+                        kGoodRatio, share_text(first.best_known().worst().above_3_percent), title_of(first),
+                        chosen.candidate.cost.mm2, first.candidate.cost.mm2);
   }
   if (found.competitor) {
     const DesignOption& other = result.options[*found.competitor];
@@ -273,14 +282,13 @@ std::string design_page(const DesignRequest& request, const DesignResult& result
       "parameters "
       "were estimated; {} that keep the limits, or a limit that is 10 % looser, were read in one frame of "
       "each scene and "
-      "light; the best of each read-out in {} frames of {} pixels. Scenes: {}, distances in proportion to "
+      "light; the best of each read-out in {} frames of {} pixels{}. Scenes: {}, distances in proportion to "
       "the sensor's "
-      "range; lights: {} klux; models, exact photons, look-up tables from flat targets, seed {}. Equally "
-      "good arrays: "
-      "the smaller one is taken.\n\nCommand: `{}`\n",
+      "range; lights: {} klux; models, exact photons, look-up tables from flat targets, seed {}. The "
+      "smallest array is taken whose share is at most {:.2f} times the smallest share.\n\nCommand: `{}`\n",
       design_product(request, result, sensor_name), result.searched, result.options.size(), result.frames,
-      chosen.best_known().pixels, fmt::join(scenes, ", "), fmt::join(request.bench.klux, ", "),
-      request.bench.seed, command_line);
+      chosen.best_known().pixels, contest_text(result), fmt::join(scenes, ", "),
+      fmt::join(request.bench.klux, ", "), request.bench.seed, kGoodRatio, command_line);
   return text;
 }
 

@@ -15,9 +15,6 @@
 
 namespace dtof {
 
-/// A recommendation is good if its share of pixels above 3 % is at most this times the best share.
-inline constexpr double kGoodRatio = 1.05;
-
 /// Where the search lost the best of the sweep.
 enum class Lost {
   kNothing,      ///< the recommendation is the best of the sweep

@@ -81,13 +81,8 @@ std::string reason(const SensorJudgement& one) {
                            "read-out, which went on, {} %",
                            best, other);
     case Lost::kInFinal:
-      return smaller
-                 ? fmt::format(
-                       "in the search's last frames the best had {} % and the recommendation {} %; "
-                       "their intervals overlap, and the smaller array won",
-                       best, other)
-                 : fmt::format("in the search's last frames the best had {} %, and the recommendation {} %",
-                               best, other);
+      return fmt::format("in the search's last frames the best had {} % and the recommendation {} %{}", best,
+                         other, smaller ? "; the smaller array within 5 % won" : "");
     case Lost::kNothing:
       break;
   }
@@ -137,8 +132,8 @@ std::string judgement_report(const JudgementSettings& settings, const std::vecto
       "* Verdict: *within*: the ratio is at most {:g}; *undecided*: the ratio is larger, and its interval "
       "reaches {:g}; *beyond*: the whole interval is larger.\n\n"
       "## Not within 5 %\n\n{}\n"
-      "The search takes the smallest array of those whose intervals overlap with the best one's. It can "
-      "therefore give up a few per cent of the share for area on purpose.\n\n"
+      "The search takes the smallest array whose measured share is at most {:g} times the smallest one. It "
+      "can therefore give up a few per cent of the share for area on purpose.\n\n"
       "## How it is judged\n\n"
       "* Recommendation: the function that `dtof design` calls, with the default options and the options of "
       "the sensor in the list below; scenes {}, {} klux, seed {}.\n"
@@ -160,7 +155,7 @@ std::string judgement_report(const JudgementSettings& settings, const std::vecto
       "## Sensors\n\nSignal: events a pulse from a white target at R in m. The command writes each sensor "
       "file to `sensors/` in its output folder.\n\n{}\nCommand: `{}`\n",
       judgement_answer(judged), sensor_table(judged).markdown(), kGoodRatio, kGoodRatio, misses(judged),
-      fmt::join(scenes, " and "), fmt::join(usual.bench.klux, " and "), usual.bench.seed,
+      kGoodRatio, fmt::join(scenes, " and "), fmt::join(usual.bench.klux, " and "), usual.bench.seed,
       settings.sweep_pixels, settings.finalists, settings.final_seeds, settings.final_pixels, settings.seed,
       ranges_text(settings.ranges), sensors_text(judged), command_line);
 }

@@ -323,7 +323,7 @@ function figuresOf(frame) {
   const silicon = cost.readouts[frame.readout];
   const judged = scene.recorded ? [["no distance", `${frame.depth.filter(Number.isNaN).length} pixels`]] :
     [["off by > 3 %", above3], ["off by > 10 %", above10], ["rmse", `${rmse} mm`], ["bias", `${bias} mm`]];
-  return [...judged, ["area", silicon ? `${silicon.mm2} mm\u00b2${silicon.note ? " *" : ""}` : "-"], ["power", silicon ? `${silicon.mw} mW` : "-"]];
+  return [...judged, ["area", silicon ? `${silicon.mm2}\u00a0mm\u00b2${silicon.note ? "\u00a0*" : ""}` : "-"], ["power", silicon ? `${silicon.mw}\u00a0mW` : "-"]];
 }
 
 /** The first card: how many detections each pixel of a recording has. */

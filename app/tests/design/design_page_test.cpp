@@ -75,7 +75,7 @@ TEST(DesignPage, ASmallerArrayThatIsAsGoodIsTheReason) {
       design_recommendation(request(), result(request(), {option(Readout::kPoolPointer, 0.100, 1.9),
                                                           option(Readout::kPoolPointerLean, 0.103, 0.7)}));
   EXPECT_THAT(text, HasSubstr("Recommended: poolPointer lean"));
-  EXPECT_THAT(text, HasSubstr("do not tell from poolPointer's"));
+  EXPECT_THAT(text, HasSubstr("at most 1.05 times the 10.00 [9.50, 10.50] % of poolPointer"));
   EXPECT_THAT(text, HasSubstr("smaller array (0.70 of 1.90 mm2)"));
 }
 

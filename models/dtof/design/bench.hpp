@@ -35,6 +35,7 @@ struct BenchSettings {
 struct LightScore {
   double klux = 0.0;
   Estimate above_3_percent;
+  std::vector<double> above_3_of_frames;  ///< share of each frame's pixels, in the order of the frames
   Estimate above_10_percent;
   double rmse_m = 0.0;
   /// Share of pixels that pass the confidence threshold and are at most 10 % off.

@@ -48,6 +48,7 @@ Estimate LightCounts::share(const std::vector<double>& frames) const {
 LightScore LightCounts::score(double klux, bool detection) const {
   LightScore light{.klux = klux,
                    .above_3_percent = share(above_3_),
+                   .above_3_of_frames = above_3_,
                    .above_10_percent = share(above_10_),
                    .rmse_m = std::sqrt(squares_ / static_cast<double>(pixels_)),
                    .detected = std::nullopt,

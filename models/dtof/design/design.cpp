@@ -128,6 +128,42 @@ std::vector<ReadoutScore> read(const DesignRequest& request, const std::vector<D
   return run_bench(bench, parameters_of(options, places), effort, progress.get());
 }
 
+/// The scores of several frames, but P_d and P_fa as they were.
+void replace_errors(ReadoutScore& score, ReadoutScore by) {
+  for (std::size_t light = 0; light < score.lights.size(); ++light) {
+    by.lights[light].detected = score.lights[light].detected;
+    by.lights[light].false_alarms = score.lights[light].false_alarms;
+  }
+  by.threshold = score.threshold;
+  score = std::move(by);
+}
+
+/// Compares the contenders in four times as many frames, again and again, until the frames settle the choice
+/// or the budget is spent. `effort`: of the comparison before.
+void hold_contest(const DesignRequest& request, BenchEffort effort, DesignResult& result) {
+  constexpr int kMoreFrames = 4;
+  effort.detection = false;
+  std::vector<std::size_t> left = contenders(result.options, request.limits);
+  for (double work = request.contest_work; !left.empty();) {
+    const auto pixels = static_cast<double>(result.options[left.front()].best_known().pixels);
+    const double most =
+        pixels_of(work, left.size(), request, 1) * static_cast<double>(request.bench.scenes.size()) / pixels;
+    const int frames = std::min(kMoreFrames * effort.frames, static_cast<int>(most));
+    if (frames <= effort.frames) {
+      break;
+    }
+    work *= 1.0 - frames / most;
+    effort.frames = frames;
+    std::vector<ReadoutScore> scores = read(request, result.options, left, effort, "contenders");
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      replace_errors(*result.options[left[i]].score, std::move(scores[i]));
+    }
+    result.contest_frames = frames;
+    left = contenders(result.options, request.limits);
+  }
+  result.settled = left.empty();
+}
+
 /// Why one read-out is left out.
 std::string reason_of(std::span<const DesignCandidate> candidates, const DesignLimits& limits) {
   if (candidates.empty()) {
@@ -198,6 +234,7 @@ DesignRequest quick_design(DesignRequest request) {
   constexpr double kShare = 0.05;
   request.screening_work *= kShare;
   request.final_work *= kShare;
+  request.contest_work *= kShare;
   request.detection = false;
   request.rivals = {};
   return request;
@@ -263,6 +300,7 @@ DesignResult run_design(const DesignRequest& request) {
   for (std::size_t i = 0; i < best.size(); ++i) {
     result.options[best[i]].score = std::move(scores[i]);
   }
+  hold_contest(request, effort, result);
   add_rivals(request, effort, result);
   result.recommendation = recommend(result.options, request.limits);
   result.left_out = left_out(candidates, request.limits);

@@ -21,9 +21,11 @@ struct DesignRequest {
   DesignLimits limits;
   int frames = 4;  ///< frames that compare the read-outs, at least 2; small arrays get more
   /// Budgets in pixels x acquisitions: `screening_work` to compare parameters, `final_work` to compare
-  /// read-outs. The budgets set the number of pixels of a frame.
+  /// read-outs; both set the number of pixels of a frame. `contest_work` sets the number of frames that
+  /// compare the contenders, as long as those frames do not settle the choice.
   double screening_work = 4e10;
   double final_work = 4e10;
+  double contest_work = 4e10;
   double rival_work = 3e9;  ///< likewise, to compare rivals
   bool detection = true;    ///< measure P_d and P_fa
   /// Rivals to read beside the read-outs, from the photons of the same frames. At most as many pixels are
@@ -56,6 +58,8 @@ struct DesignResult {
   };
   std::vector<Consequence> consequences;  ///< one for each changed limit
   int frames = 0;                         ///< frames that compared the read-outs
+  int contest_frames = 0;                 ///< frames that compared the contenders last; 0: without contest
+  bool settled = true;                    ///< the frames show whether a smaller array is within kGoodRatio
   std::size_t searched = 0;               ///< parameter sets whose cost was estimated
 };
 
@@ -65,7 +69,8 @@ std::vector<const RivalOption*> more_accurate_rivals(const DesignResult& result)
 
 /// Estimates the cost of every candidate. Reads out those that meet the limits, also after one limit is
 /// loosened by 10 %; of candidates that differ in SLOTS alone, only the one with most. Compares the best
-/// option of each read-out. Throws InputError, with one line that says what would be needed, if no read-out
+/// option of each read-out, and the contenders in more frames until these settle the choice or the budget is
+/// spent. Throws InputError, with one line that says what would be needed, if no read-out
 /// meets the limits.
 DesignResult run_design(const DesignRequest& request);
 

@@ -15,22 +15,44 @@ constexpr double kChange = 0.1;
 
 double share_of(const DesignOption& option) { return option.best_known().worst().above_3_percent.value; }
 
-/// The smallest array of those that are as good as the best; none of none.
-std::optional<std::size_t> best_of(std::span<const DesignOption> options,
-                                   const std::vector<std::size_t>& among) {
+std::size_t smallest_share(std::span<const DesignOption> options, const std::vector<std::size_t>& among) {
+  return *std::ranges::min_element(among, {}, [&](std::size_t i) { return share_of(options[i]); });
+}
+
+/// The smallest array of those that are `good` beside the one with the smallest share; none of none.
+std::optional<std::size_t> smallest_of(
+    std::span<const DesignOption> options, const std::vector<std::size_t>& among,
+    const std::function<bool(const LightScore& one, const LightScore& best)>& good) {
   if (among.empty()) {
     return std::nullopt;
   }
-  const std::size_t best =
-      *std::ranges::min_element(among, {}, [&](std::size_t i) { return share_of(options[i]); });
+  const std::size_t best = smallest_share(options, among);
   std::size_t chosen = best;
   for (const std::size_t i : among) {
-    if (as_good(options[i].best_known().worst(), options[best].best_known().worst()) &&
+    if (good(options[i].best_known().worst(), options[best].best_known().worst()) &&
         options[i].candidate.cost.mm2 < options[chosen].candidate.cost.mm2) {
       chosen = i;
     }
   }
   return chosen;
+}
+
+std::optional<std::size_t> choice(std::span<const DesignOption> options,
+                                  const std::vector<std::size_t>& among) {
+  return smallest_of(options, among, [](const LightScore& one, const LightScore& best) {
+    return one.above_3_percent.value <= kGoodRatio * best.above_3_percent.value;
+  });
+}
+
+/// Share of `one` less kGoodRatio times the share of `other`, over the frames that both have.
+Interval excess(const DesignOption& one, const DesignOption& other) {
+  const std::vector<double>& ones = one.best_known().worst().above_3_of_frames;
+  const std::vector<double>& others = other.best_known().worst().above_3_of_frames;
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < std::min(ones.size(), others.size()); ++i) {
+    differences.push_back(ones[i] - kGoodRatio * others[i]);
+  }
+  return estimate_mean(differences).interval;
 }
 
 /// What an option of the command would have to be.
@@ -96,7 +118,7 @@ std::vector<std::size_t> representatives(std::span<const DesignOption> options, 
     for (DesignOption& option : screened) {
       option.score.reset();
     }
-    if (const auto best = best_of(screened, mine)) {
+    if (const auto best = smallest_of(screened, mine, as_good)) {
       found.push_back(*best);
     }
   }
@@ -107,15 +129,32 @@ Recommendation recommend(std::span<const DesignOption> options, const DesignLimi
   Recommendation found;
   found.within = representatives(options, limits);
   std::ranges::sort(found.within, {}, [&](std::size_t i) { return share_of(options[i]); });
-  found.chosen = best_of(options, found.within);
+  found.chosen = choice(options, found.within);
   std::vector<std::size_t> others;
   for (const std::size_t i : found.within) {
     if (i != found.chosen) {
       others.push_back(i);
     }
   }
-  found.competitor = best_of(options, others);
+  found.competitor = choice(options, others);
   return found;
+}
+
+std::vector<std::size_t> contenders(std::span<const DesignOption> options, const DesignLimits& limits) {
+  const std::vector<std::size_t> within = representatives(options, limits);
+  const std::size_t best = smallest_share(options, within);
+  std::vector<std::size_t> found = {best};
+  bool settled = true;
+  for (const std::size_t i : within) {
+    const Interval worse = i == best ? Interval{} : excess(options[i], options[best]);
+    if (i == best || worse.low > 0.0) {
+      continue;
+    }
+    found.push_back(i);
+    const bool is_smaller = options[i].candidate.cost.mm2 < options[best].candidate.cost.mm2;
+    settled = settled && (is_smaller ? worse : excess(options[best], options[i])).high <= 0.0;
+  }
+  return settled ? std::vector<std::size_t>() : found;
 }
 
 std::vector<SingleWay> single_ways(std::span<const DesignCandidate> candidates, const DesignLimits& limits) {

@@ -36,14 +36,24 @@ bool as_good(const LightScore& one, const LightScore& other);
 /// errors above 3 % at the worst light level; among equally good options (as_good), the smallest array.
 std::vector<std::size_t> representatives(std::span<const DesignOption> options, const DesignLimits& limits);
 
+/// A smaller array is preferred if its share of errors is at most this many times the smallest share.
+inline constexpr double kGoodRatio = 1.05;
+
 struct Recommendation {
   std::vector<std::size_t> within;  ///< best option of each read-out, in order of merit
   std::optional<std::size_t> chosen;
   std::optional<std::size_t> competitor;  ///< the choice if the chosen read-out were not available
 };
 
-/// Chooses among the representatives by the same rule.
+/// Chooses among the representatives: the smallest array whose share of errors above 3 % at its worst light
+/// level is at most kGoodRatio times the smallest share.
 Recommendation recommend(std::span<const DesignOption> options, const DesignLimits& limits);
+
+/// Returns the representatives that more frames could make the choice: those whose frames do not show, at
+/// 95 %, that their share is larger than kGoodRatio times the smallest one. Empty if the frames settle the
+/// choice: for each of them it shows whether a smaller array is within kGoodRatio of the best, and that the
+/// best is within kGoodRatio of a larger array. Frames of the same number have the same photons.
+std::vector<std::size_t> contenders(std::span<const DesignOption> options, const DesignLimits& limits);
 
 /// Change of a single limit, e.g. "--max-mm2 1.19", after which this read-out meets all limits.
 struct SingleWay {

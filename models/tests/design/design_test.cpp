@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ranges>
 
 #include "dtof/core/error.hpp"
 #include "dtof/sensor/default_parameters.hpp"
@@ -111,6 +112,30 @@ TEST(Design, EveryOptionThatIsRecommendedHasItsFinalScore) {
       EXPECT_TRUE(found.options[i].score) << one.change.name;
     }
   }
+}
+
+// Coarse histogram and hisPointer 1 are 10 % apart in nearly equal arrays: 7 frames cannot tell.
+TEST(Design, ContendersAreReadInMoreFramesUntilTheChoiceIsSettled) {
+  DesignRequest request = small_request();
+  request.bench.sensor.signal_events_1m *= 40.0;
+  request.contest_work = 2e6;  // fewer frames than before
+  const DesignResult without = run_design(request);
+  EXPECT_FALSE(without.settled);
+  EXPECT_EQ(without.contest_frames, 0);
+  request.contest_work = 4e9;
+  const DesignResult found = run_design(request);
+  EXPECT_TRUE(found.settled);
+  EXPECT_EQ(found.contest_frames, 4 * found.frames);
+  const std::vector<DesignOption>& options = found.options;
+  const LightScore& best = options[found.recommendation.within.front()].best_known().worst();
+  EXPECT_EQ(best.above_3_of_frames.size(), static_cast<std::size_t>(found.contest_frames));
+  EXPECT_TRUE(best.detected) << "P_d is that of the first frames";
+  const LightScore& last = options[found.recommendation.within.back()].best_known().worst();
+  EXPECT_EQ(last.above_3_of_frames.size(), static_cast<std::size_t>(found.frames)) << "no contender";
+  const LightScore& before = without.options[found.recommendation.within.front()].best_known().worst();
+  EXPECT_TRUE(
+      std::ranges::equal(before.above_3_of_frames, best.above_3_of_frames | std::views::take(found.frames)))
+      << "the contest begins with the same frames";
 }
 
 TEST(Design, AReadoutWhoseMemoryCannotBeMadeIsLeftOut) {

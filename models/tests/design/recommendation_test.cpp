@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace dtof {
@@ -10,6 +12,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 /// An option of made-up worth: share of pixels off, area, frame's clocks.
 DesignOption option(Readout readout, double share, double mm2, std::uint64_t clocks = 1'000'000) {
@@ -62,6 +65,43 @@ TEST(Recommendation, OfReadoutsThatAreAsGoodTheSmallestIsTaken) {
   EXPECT_EQ(found.chosen, 1U);
   EXPECT_EQ(found.competitor, 0U);
   EXPECT_THAT(found.within, ElementsAre(0, 1, 2));
+}
+
+/// The option with a score from frames of these shares.
+DesignOption scored(Readout readout, double mm2, std::vector<double> frames) {
+  DesignOption made =
+      option(readout, std::reduce(frames.begin(), frames.end()) / static_cast<double>(frames.size()), mm2);
+  made.screened.lights[0].above_3_of_frames = std::move(frames);
+  made.score = made.screened;
+  return made;
+}
+
+TEST(Recommendation, NoContestIfTheFramesSettleTheChoice) {
+  // Equal noise in all: the residuals are the same in each frame but for 5 % of the noise.
+  const DesignOption best = scored(Readout::kPoolPointer, 1.0, {0.09, 0.10, 0.11});
+  EXPECT_THAT(contenders(std::vector{best}, {}), ElementsAre());
+  EXPECT_THAT(contenders(std::vector{best, scored(Readout::kSifh, 0.5, {0.19, 0.20, 0.21})}, {}),
+              ElementsAre());
+  EXPECT_THAT(contenders(std::vector{best, scored(Readout::kSifh, 0.5, {0.091, 0.101, 0.111})}, {}),
+              ElementsAre());
+  EXPECT_THAT(contenders(std::vector{best, scored(Readout::kSifh, 2.0, {0.091, 0.101, 0.111})}, {}),
+              ElementsAre());
+}
+
+TEST(Recommendation, ContendersAreThoseThatMoreFramesCouldChoose) {
+  const std::vector<DesignOption> options = {
+      scored(Readout::kPoolPointer, 1.0, {0.09, 0.10, 0.11}), scored(Readout::kSifh, 0.5, {0.11, 0.10, 0.11}),
+      scored(Readout::kFifh, 2.0, {0.11, 0.10, 0.105}), scored(Readout::kEzPointer, 0.1, {0.29, 0.30, 0.31})};
+  EXPECT_THAT(contenders(options, {}), UnorderedElementsAre(0, 1, 2))
+      << "ezPointer's frames settle its place";
+  EXPECT_THAT(contenders(std::vector{options[0], options[2]}, {}), UnorderedElementsAre(0, 1))
+      << "the larger array could be the better one";
+}
+
+TEST(Recommendation, AShareOfOneFactorAboveTheLeastIsGoodEnough) {
+  const DesignOption best = option(Readout::kPoolPointer, 0.1000, 1.0);
+  EXPECT_EQ(recommend(std::vector{best, option(Readout::kSifh, 0.1049, 0.9)}, {}).chosen, 1U);
+  EXPECT_EQ(recommend(std::vector{best, option(Readout::kSifh, 0.1051, 0.9)}, {}).chosen, 0U);
 }
 
 TEST(Recommendation, FinalScoresDecideBetweenReadoutsAndScreenedOnesBetweenParameters) {
