@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dtof/core/frame_time.hpp"
+#include "dtof/design/latency.hpp"
 #include "dtof/report/table.hpp"
 
 namespace dtof {
@@ -20,6 +21,11 @@ constexpr const char* kNotEstimated = "not estimated";
 
 std::string title_of(const DesignOption& option) {
   return std::string(readout_title(option.candidate.readout()));
+}
+
+std::uint64_t latency_clocks(const DesignCandidate& candidate) {
+  const ArrayChoice& array = candidate.array;
+  return predicted_latency_clocks(array.parameters, array.rows, array.columns);
 }
 
 std::string share_text(const Estimate& share) {
@@ -106,7 +112,7 @@ std::string design_product(const DesignRequest& request, const DesignResult& res
 Table design_rows(const DesignRequest& request, const DesignResult& result) {
   const double clock_hz = request.limits.budget.clock_hz;
   Table table({"read-out", "off by > 3 % in %", "> 10 % in %", "P_d in %", "P_fa in %", "mm2", "mW",
-               "fmax MHz", "frames/s", "bits"});
+               "fmax MHz", "frames/s", "latency ms", "bits"});
   for (const std::size_t i : result.recommendation.within) {
     const DesignOption& option = result.options[i];
     const LightScore& worst = option.best_known().worst();
@@ -116,6 +122,7 @@ Table design_rows(const DesignRequest& request, const DesignResult& result) {
                fmt::format("{:.0f}", option.candidate.mw(clock_hz)),
                fmt::format("{:.0f}", option.candidate.cost.fmax_mhz),
                fmt::format("{:.1f}", option.candidate.frames_per_s(clock_hz)),
+               fmt::format("{:.2f}", 1e3 * static_cast<double>(latency_clocks(option.candidate)) / clock_hz),
                fmt::format("{:g}", option.candidate.cost.bits_per_pixel)});
   }
   return table;
@@ -255,7 +262,9 @@ std::string design_page(const DesignRequest& request, const DesignResult& result
       "threshold of "
       "confidence and are at most 10 % off; P_fa: pixels of other skies that pass; the threshold lets at "
       "most {:g} of "
-      "the sky's pixels pass. mW: while acquisitions stream in, in the brightest light. fmax: slow corner.\n",
+      "the sky's pixels pass. mW: while acquisitions stream in, in the brightest light. fmax: slow corner. "
+      "Latency: from a frame's last timestamps "
+      "to its last result.\n",
       request.bench.false_alarms);
   if (const std::string rivals = design_rivals(result); !rivals.empty()) {
     text += "\n## Rivals\n\n" + rivals;
@@ -295,7 +304,7 @@ std::string design_page(const DesignRequest& request, const DesignResult& result
 std::string design_csv(const DesignRequest& request, const DesignResult& result) {
   Table table({"readout", "parameters", "klux", "above_3_percent", "low", "high", "above_10_percent",
                "rmse_m", "detected", "false_alarms", "mm2", "mw", "fmax_mhz", "clocks", "bits_per_pixel",
-               "frames", "memory_mm2"});
+               "frames", "memory_mm2", "latency_clocks"});
   const auto errors_of = [](const std::string& name, const std::string& parameters, const LightScore& light) {
     const auto share = [](const std::optional<Estimate>& one) {
       return one ? fmt::format("{:.6f}", one->value) : "";
@@ -325,7 +334,8 @@ std::string design_csv(const DesignRequest& request, const DesignResult& result)
            fmt::format("{:.2f}", candidate.mw(request.limits.budget.clock_hz)),
            fmt::format("{:.1f}", candidate.cost.fmax_mhz), fmt::format("{}", candidate.clocks),
            fmt::format("{:g}", candidate.cost.bits_per_pixel),
-           fmt::format("{}", option.score ? result.frames : 1), ""});
+           fmt::format("{}", light.above_3_of_frames.size()), "",
+           fmt::format("{}", latency_clocks(candidate))});
     }
   }
   for (const RivalOption& rival : result.rivals) {
@@ -333,7 +343,7 @@ std::string design_csv(const DesignRequest& request, const DesignResult& result)
       add(errors_of(std::string(rival.entry->name), "rival", light),
           {kNotEstimated, kNotEstimated, kNotEstimated, kNotEstimated,
            fmt::format("{}", rival.bits_per_pixel), fmt::format("{}", result.frames),
-           fmt::format("{:.4f}", rival.memory_mm2)});
+           fmt::format("{:.4f}", rival.memory_mm2), kNotEstimated});
     }
   }
   return table.csv();

@@ -57,6 +57,7 @@ TEST(DesignPage, TheTableHasAReadoutALineBestFirst) {
   EXPECT_THAT(text, HasSubstr("1.00 [0.50, 1.50]"));
   EXPECT_THAT(text, HasSubstr("87.5"));
   EXPECT_THAT(text, HasSubstr("0.05"));
+  EXPECT_THAT(text, HasSubstr("latency ms"));
   EXPECT_LT(text.find("poolPointer"), text.find("ezPointer"));
   EXPECT_EQ(std::ranges::count(text, '\n'), 4);
 }

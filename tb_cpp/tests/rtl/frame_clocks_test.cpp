@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The clocks of wide arrays follow from those of narrow ones: every two arrays of this program that differ in
-// their columns alone.
+// their columns alone. The clocks behind the last timestamps are those that dtof/core/frame_time.hpp
+// predicts.
 #include "rtl/frame_clocks.hpp"
 
 #include <fmt/format.h>
@@ -12,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "dtof/core/frame_time.hpp"
+#include "dtof/design/latency.hpp"
 #include "tests/rtl/rtl_test_support.hpp"
 
 namespace dtof {
@@ -68,6 +71,35 @@ TEST(FrameClocks, OfAWideArrayFollowFromThoseOfANarrowOne) {
   }
   fmt::print("{} pairs of arrays compared, up to {} columns\n", compared, widest);
   EXPECT_GE(compared, 9U);
+}
+
+TEST(FrameClocks, FromTheLastTimestampsToDoneAreThePredictedOnes) {
+  std::size_t compared = 0;
+  for (const RtlConfiguration& configuration : compiled_rtl_configurations()) {
+    const ReadoutParameters& parameters = configuration.parameters;
+    const auto lines = static_cast<std::uint64_t>(configuration.pixels_per_sram) * parameters.slots;
+    for (const std::uint32_t acquisitions : {8U, 17U}) {
+      CounterRandom random = test_random(1, acquisitions);
+      const std::vector<ColumnStream> columns =
+          adversarial_columns(configuration, acquisitions, kStreamKinds.size() - 1, random);
+      std::uint64_t last_start = 0;
+      RtlRunOptions options;
+      options.observer = [&](const RtlCycle& clock) {
+        last_start = clock.acquisition_start ? clock.cycle : last_start;
+      };
+      const std::uint64_t done =
+          RtlReadout(configuration).run(columns, acquisitions, options).statistics.cycles;
+      // Others have more BROADCAST_STAGES, or parity.
+      if (done == predicted_frame_clocks(parameters, configuration.pixels_per_sram, configuration.sram_num,
+                                         acquisitions, configuration.signalled_clear)) {
+        EXPECT_EQ(done - (last_start + lines),
+                  predicted_latency_clocks(parameters, configuration.pixels_per_sram, configuration.sram_num))
+            << configuration.to_string() << ", " << acquisitions << " acquisitions";
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 20U);
 }
 
 }  // namespace
