@@ -82,13 +82,17 @@ void run_design_command(const DesignOptions& options, JsonResult& json) {
              design_more_accurate(result), design_consequences(request, result));
   std::string confirmed;
   if (options.confirm) {
-    SensorModel sensor = request.bench.sensor;
-    sensor.columns = chosen.candidate.array.columns;
+    const ArrayChoice& array = chosen.candidate.array;
+    RtlConfiguration configuration;
+    configuration.parameters = array.parameters;
+    configuration.pixels_per_sram = array.rows;
+    configuration.sram_num = array.columns;
+    configuration.pointer_ports = array.pointer_ports;
     const CostEstimate& cost = chosen.candidate.cost;
-    confirmed = measured_by_flow("--confirm", chosen.candidate.array.parameters, sensor, options.clock_mhz) +
-                fmt::format("\nEstimated: {:.3f} mm2{}, fmax {:.0f} MHz in the slow corner.\n",
-                            cost.mm2 / chosen.candidate.array.arrays,
-                            chosen.candidate.array.arrays > 1 ? " for each array" : "", cost.fmax_mhz);
+    confirmed =
+        measured_by_flow("--confirm", configuration, options.clock_mhz) +
+        fmt::format("\nEstimated: {:.3f} mm2{}, fmax {:.0f} MHz in the slow corner.\n",
+                    cost.mm2 / array.arrays, array.arrays > 1 ? " for each array" : "", cost.fmax_mhz);
     fmt::print("\n{}", confirmed);
   }
   const std::filesystem::path folder(options.out);

@@ -40,12 +40,8 @@ void check_flow(const std::string& option) {
   }
 }
 
-std::string measured_by_flow(const std::string& option, const ReadoutParameters& parameters,
-                             const SensorModel& sensor, double clock_mhz) {
-  RtlConfiguration configuration;
-  configuration.parameters = parameters;
-  configuration.pixels_per_sram = sensor.rows;
-  configuration.sram_num = sensor.columns;
+std::string measured_by_flow(const std::string& option, const RtlConfiguration& configuration,
+                             double clock_mhz) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / fmt::format("dtof_flow_{}", getpid());
   std::filesystem::create_directories(folder);

@@ -29,6 +29,7 @@ struct ProductOptions {
   double clock_mhz = 330.0;
   bool self_test = false;
   bool measure = false;
+  int pointer_ports = 2;
   std::string out;
   bool json = false;
   std::string command_line;
@@ -59,6 +60,7 @@ void run_product_command(const ProductOptions& options, JsonResult& result) {
   ProductRequest request{.sensor_text = described.text,
                          .sensor = described.model,
                          .parameters = readouts.front(),
+                         .pointer_ports = options.pointer_ports,
                          .scene = parse_scene(options.scene),
                          .klux = options.klux,
                          .seed = options.seed,
@@ -72,8 +74,7 @@ void run_product_command(const ProductOptions& options, JsonResult& result) {
   request.sensor.validate();
   if (options.measure) {
     check_flow("--measure");
-    request.measurements =
-        measured_by_flow("--measure", request.parameters, request.sensor, options.clock_mhz);
+    request.measurements = measured_by_flow("--measure", product_array(request), options.clock_mhz);
   }
   const auto files = product_files(request);
   write_product(files, options.out);
@@ -107,6 +108,10 @@ void add_product_command(CLI::App& app, const std::string& command_line) {
       "--vector-acquisitions", options->vector_acquisitions,
       "acquisitions of the test vectors (default: as many of the sensor's as fit some megabytes)");
   add_budget_options(*command, options->frame_rate, options->clock_mhz);
+  command
+      ->add_option("--pointer-ports", options->pointer_ports,
+                   "ports of the pointers' memory: 2, or 1, which is smaller, with SLOTS of at least 2")
+      ->capture_default_str();
   command->add_flag("--self-test", options->self_test,
                     "with the built-in self-test, whose checksum the driver's header and the bench have");
   command->add_flag("--measure", options->measure,

@@ -74,7 +74,7 @@ std::string errors_text() {
 }
 
 std::string name_of_choice(const DesignRequest& request, const DesignOption& option) {
-  const std::string options = command_options(option.candidate.array.parameters, request.bench.sensor);
+  const std::string options = product_options(option.candidate.array, request.bench.sensor);
   const std::size_t end = options.find(' ', std::string("--readout ").size());
   const ArrayChoice& array = option.candidate.array;
   return title_of(option) + (end == std::string::npos ? "" : options.substr(end)) +
@@ -105,8 +105,7 @@ std::string design_product(const DesignRequest& request, const DesignResult& res
                            const std::string& sensor_name) {
   const DesignOption& chosen = result.options[*result.recommendation.chosen];
   return fmt::format("dtof product --sensor {} {} --out chip{}", sensor_name,
-                     command_options(chosen.candidate.array.parameters, request.bench.sensor),
-                     product_note(chosen));
+                     product_options(chosen.candidate.array, request.bench.sensor), product_note(chosen));
 }
 
 Table design_rows(const DesignRequest& request, const DesignResult& result) {

@@ -57,9 +57,9 @@ std::string playground_advice(const AdviceRequest& asked, const PlaygroundFiles&
   for (const LeftOut& one : result.left_out) {
     text += fmt::format("left\t{}\t{}\n", readout_title(one.readout), one.reason);
   }
-  const ReadoutParameters& chosen = result.options[*result.recommendation.chosen].candidate.array.parameters;
-  text += fmt::format("readout\t{}\n", readout_name(chosen.readout));
-  text += fmt::format("product\t{}\n", command_options(chosen, request.bench.sensor));
+  const DesignCandidate& chosen = result.options[*result.recommendation.chosen].candidate;
+  text += fmt::format("readout\t{}\n", readout_name(chosen.readout()));
+  text += fmt::format("product\t{}\n", product_options(chosen.array, request.bench.sensor));
   return text;
 }
 

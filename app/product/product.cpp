@@ -53,16 +53,9 @@ std::string filled(std::string_view name, const std::vector<std::pair<std::strin
   return text;
 }
 
-RtlConfiguration configuration_of(const ProductRequest& request) {
-  RtlConfiguration configuration;
-  configuration.parameters = request.parameters;
-  configuration.pixels_per_sram = request.sensor.rows;
-  configuration.sram_num = request.sensor.columns;
-  return configuration;
-}
-
 void check(const ProductRequest& request) {
   request.parameters.validate();
+  product_array(request);
   const SensorModel& sensor = request.sensor;
   constexpr int kMostColumns = 1024;
   constexpr int kMostRows = 4096;
@@ -87,7 +80,7 @@ void check(const ProductRequest& request) {
 
 /// The parameters of dtof_subsystem; time gate and self-test only where they are asked for.
 std::vector<RtlSetting> settings_of(const ProductRequest& request) {
-  std::vector<RtlSetting> settings = rtl_settings(configuration_of(request), RtlTop::kSubsystem);
+  std::vector<RtlSetting> settings = rtl_settings(product_array(request), RtlTop::kSubsystem);
   std::ranges::find(settings, "TIME_GATE", &RtlSetting::name)->value = request.parameters.time_gate ? 1 : 0;
   if (request.self_test) {
     settings.push_back({"SELF_TEST", 1});
@@ -256,7 +249,7 @@ struct SelfTest {
 
 SelfTest self_test_of(const ProductRequest& request, std::uint32_t acquisitions) {
   constexpr std::uint32_t kSeed = 1;
-  return {acquisitions, kSeed, self_test_signature(configuration_of(request), false, acquisitions, kSeed)};
+  return {acquisitions, kSeed, self_test_signature(product_array(request), false, acquisitions, kSeed)};
 }
 
 /// Settings and checksum for dtof_self_test, with a sentence of how to use them.
@@ -349,6 +342,25 @@ std::string report(const ProductRequest& request) {
 }
 
 }  // namespace
+
+RtlConfiguration product_array(const ProductRequest& request) {
+  if (request.pointer_ports != 2) {
+    if (!is_pointer_readout(request.parameters.readout)) {
+      throw InputError(fmt::format("product: --pointer-ports has no effect: {} has no pointers",
+                                   readout_title(request.parameters.readout)));
+    }
+    if (request.pointer_ports != 1 || request.parameters.slots < 2) {
+      throw InputError(fmt::format("product: --pointer-ports is {}, must be 2, or 1 with SLOTS of at least 2",
+                                   request.pointer_ports));
+    }
+  }
+  RtlConfiguration configuration;
+  configuration.parameters = request.parameters;
+  configuration.pixels_per_sram = request.sensor.rows;
+  configuration.sram_num = request.sensor.columns;
+  configuration.pointer_ports = request.pointer_ports;
+  return configuration;
+}
 
 std::map<std::string, std::string> product_files(const ProductRequest& request) {
   check(request);

@@ -10,6 +10,7 @@
 #include "dtof/core/parameters.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/scene/scene.hpp"
+#include "rtl/configuration.hpp"
 
 namespace dtof {
 
@@ -18,6 +19,7 @@ struct ProductRequest {
   std::string sensor_text;  ///< text of the sensor file
   SensorModel sensor;
   ReadoutParameters parameters;
+  int pointer_ports = 2;  ///< POINTER_PORTS: 2, or 1 for a read-out with pointers and SLOTS of at least 2
   Scene scene = Scene::kRoom;  ///< scene of the test vectors
   double klux = 14.0;
   std::uint64_t seed = 1;
@@ -28,6 +30,9 @@ struct ProductRequest {
   std::string command;       ///< command that made the product, without options that do not change its files
   std::string measurements;  ///< Markdown with measured figures; empty if nothing was measured
 };
+
+/// The product's array. Throws InputError for a number of ports that its read-out cannot have.
+RtlConfiguration product_array(const ProductRequest& request);
 
 /// Files of a product by path: top, RTL, file lists, constraints, driver, vectors, bench. Equal requests give
 /// equal bytes. Throws InputError for parameters that dtof_subsystem does not support, or a frame that does

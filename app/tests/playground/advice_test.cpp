@@ -77,9 +77,9 @@ TEST(PlaygroundAdvice, IsThatOfTheDesignForTheTypedSensor) {
   EXPECT_THAT(found["change"].front(), Not(HasSubstr("* ")));
   EXPECT_EQ(found["clocks"], design_clocks(design, result));
   EXPECT_EQ(found["left"].size(), result.left_out.size());
-  const ReadoutParameters& chosen = result.options[*result.recommendation.chosen].candidate.array.parameters;
-  EXPECT_EQ(found["readout"].front(), readout_name(chosen.readout));
-  EXPECT_EQ(found["product"].front(), command_options(chosen, design.bench.sensor));
+  const DesignCandidate& chosen = result.options[*result.recommendation.chosen].candidate;
+  EXPECT_EQ(found["readout"].front(), readout_name(chosen.readout()));
+  EXPECT_EQ(found["product"].front(), product_options(chosen.array, design.bench.sensor));
 }
 
 TEST(PlaygroundAdvice, EachLimitReachesTheDesign) {

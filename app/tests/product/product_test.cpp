@@ -248,6 +248,22 @@ TEST(ProductFiles, RefuseWhatTheSubsystemCannotBe) {
   EXPECT_THAT([&] { (void)product_files(lengthy); }, ThrowsMessage<InputError>(HasSubstr("to 65535")));
 }
 
+TEST(ProductFiles, HaveAPointerMemoryOfOnePortIfAskedFor) {
+  ProductRequest made = request(Readout::kHisPointer);
+  EXPECT_THAT(product_files(made).at("rtl/dtof_product.sv"), HasSubstr(".POINTER_PORTS(2)"));
+  made.pointer_ports = 1;
+  EXPECT_THAT(product_files(made).at("rtl/dtof_product.sv"), HasSubstr(".POINTER_PORTS(1)"));
+  made.parameters.slots = 1;
+  made.sensor.slots = 1;
+  EXPECT_THAT(
+      [&] { (void)product_files(made); },
+      ThrowsMessage<InputError>("product: --pointer-ports is 1, must be 2, or 1 with SLOTS of at least 2"));
+  ProductRequest without = request(Readout::kSifh);
+  without.pointer_ports = 1;
+  EXPECT_THAT([&] { (void)product_files(without); },
+              ThrowsMessage<InputError>("product: --pointer-ports has no effect: SiFH has no pointers"));
+}
+
 TEST(ProductFiles, OfALargeArrayLeaveIcarusVerilogOutOfMake) {
   ProductRequest made = request(Readout::kEzPointer);
   made.vector_acquisitions = 1;

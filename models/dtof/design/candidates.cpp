@@ -94,6 +94,9 @@ std::vector<ReadoutParameters> searched_parameters(const SensorModel& sensor) {
 
 ArrayChoice array_for(const ReadoutParameters& parameters, const SensorModel& sensor, double clock_hz) {
   ArrayChoice array{.parameters = parameters, .rows = sensor.rows, .columns = sensor.columns};
+  if (is_pointer_readout(parameters.readout) && parameters.slots > 1) {
+    array.pointer_ports = 1;
+  }
   const int widest = EstimateCoefficients::built_in().of(parameters.readout).reference.columns;
   while (array.columns > widest && estimate_cost(array).fmax_mhz < clock_hz * kMegahertz) {
     ++array.arrays;
@@ -124,6 +127,13 @@ std::string command_options(const ReadoutParameters& parameters, const SensorMod
     text += " --window-centred";
   }
   return text;
+}
+
+std::string product_options(const ArrayChoice& array, const SensorModel& sensor) {
+  const std::string options = command_options(array.parameters, sensor);
+  return array.pointer_ports == ArrayChoice().pointer_ports
+             ? options
+             : fmt::format("{} --pointer-ports {}", options, array.pointer_ports);
 }
 
 }  // namespace dtof

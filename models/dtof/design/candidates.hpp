@@ -50,8 +50,8 @@ LimitsKept limits_kept(const DesignCandidate& candidate, const DesignLimits& lim
 std::vector<ReadoutParameters> searched_parameters(const SensorModel& sensor);
 
 /// Returns one array for the sensor or, if that is too slow for the clock, the fewest arrays side by side
-/// that are fast enough. Arrays as narrow as the synthesised array on which the estimates rest are not split
-/// further.
+/// that are fast enough. Pointers are in memories of one port, which are smaller, if SLOTS is at least 2.
+/// Arrays as narrow as the synthesised array on which the estimates rest are not split further.
 ArrayChoice array_for(const ReadoutParameters& parameters, const SensorModel& sensor, double clock_hz);
 
 /// Copy of the sensor with this number of slots.
@@ -59,5 +59,7 @@ SensorModel with_slots(SensorModel sensor, int slots);
 
 /// Options of `dtof product` and `dtof frame` that select these parameters, e.g. "--readout sifh --nb 5".
 std::string command_options(const ReadoutParameters& parameters, const SensorModel& sensor);
+/// Options of `dtof product` that select this array.
+std::string product_options(const ArrayChoice& array, const SensorModel& sensor);
 
 }  // namespace dtof

@@ -62,6 +62,23 @@ TEST(Design, OptionsAskForTheParametersThatDiffer) {
   EXPECT_EQ(command_options(parameters, sensor), "--readout sifh --nb 5 --slots 1 --window-centred");
 }
 
+TEST(Design, PointersAreInAMemoryOfOnePortWhereSlotsAllowThat) {
+  const SensorModel sensor = parse_preset("thesis");
+  const auto chosen = [&](Readout readout, int slots) {
+    return array_for(default_parameters(readout, with_slots(sensor, slots)), with_slots(sensor, slots),
+                     330e6);
+  };
+  const ArrayChoice one = chosen(Readout::kEzPointer, 2);
+  EXPECT_EQ(one.pointer_ports, 1);
+  EXPECT_EQ(product_options(one, sensor), "--readout ezpointer --pointer-ports 1");
+  ArrayChoice two = one;
+  two.pointer_ports = 2;
+  EXPECT_EQ(product_options(two, sensor), "--readout ezpointer");
+  EXPECT_LT(estimate_cost(one).mm2, 0.5 * estimate_cost(two).mm2) << "reports/area.md: 0.61 and 1.32 mm2";
+  EXPECT_EQ(chosen(Readout::kHisPointer, 1).pointer_ports, 2);
+  EXPECT_EQ(chosen(Readout::kSifh, 2).pointer_ports, 2) << "has no pointers";
+}
+
 TEST(Design, AnArrayThatIsTooWideForTheClockIsCut) {
   SensorModel sensor = parse_preset("thesis");
   const ReadoutParameters parameters = default_parameters(Readout::kSifh, sensor);
