@@ -18,6 +18,7 @@
 #include "dtof/frame/flat_calibration.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/photon/photon_source.hpp"
+#include "product/product_report.hpp"
 #include "rtl/settings.hpp"
 #include "sources/sources.hpp"
 #include "subsystem/self_test_reference.hpp"
@@ -325,22 +326,6 @@ std::uint32_t vector_acquisitions(const ProductRequest& request) {
   return std::min(most, sensor.acquisitions);
 }
 
-std::string report(const ProductRequest& request) {
-  const SensorModel& sensor = request.sensor;
-  std::string parameters;
-  for (const RtlSetting& setting : settings_of(request)) {
-    parameters += fmt::format("| {} | {} |\n", setting.name, setting.value);
-  }
-  return fmt::format(
-      "# Report\n\n{}\n\n{}\n\n| parameter of dtof_subsystem | value |\n|---|---:|\n{}",
-      frame_fit(request.parameters, sensor.rows, sensor.columns, sensor.acquisitions, request.budget)
-          .sentence,
-      request.measurements.empty() ? "Area, timing and power of this configuration were not measured "
-                                     "(`--measure` measures area and timing)."
-                                   : request.measurements,
-      parameters);
-}
-
 }  // namespace
 
 RtlConfiguration product_array(const ProductRequest& request) {
@@ -435,7 +420,7 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
   files["vectors/results.hex"] = std::move(vectors.results);
   files["sensor.toml"] = request.sensor_text;
   files["LICENSE"] = source("LICENSE");
-  files["report.md"] = report(request);
+  files["report.md"] = product_report(request, settings_of(request));
   return files;
 }
 

@@ -9,10 +9,13 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "dtof/core/error.hpp"
+#include "dtof/design/bench.hpp"
+#include "dtof/design/estimate.hpp"
 #include "dtof/io/input_file.hpp"
 #include "dtof/sensor/default_parameters.hpp"
 #include "dtof/sensor/sensor_file.hpp"
@@ -27,6 +30,7 @@ using test::run_shell;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
 constexpr const char* kSensor = R"(name = "small"
@@ -96,7 +100,7 @@ TEST_F(Product, OfAReadoutOfTheThesisPassesItsOwnMake) {
   EXPECT_EQ(checked.exit_code, 0) << checked.output;
   EXPECT_THAT(checked.output, HasSubstr("PASS: icarus, verilator, driver"));
   EXPECT_EQ(shell("make -C chip lint").exit_code, 0);
-  EXPECT_THAT(read_file(folder_ / "chip/report.md"), HasSubstr("were not measured"));
+  EXPECT_THAT(read_file(folder_ / "chip/report.md"), HasSubstr("| area of cells and memories, mm2 "));
 }
 
 TEST_F(Product, OfAPoolReadoutPassesItsOwnMake) {
@@ -246,6 +250,49 @@ TEST(ProductFiles, RefuseWhatTheSubsystemCannotBe) {
   ProductRequest lengthy = request(Readout::kSifh);
   lengthy.sensor.acquisitions = 65536;
   EXPECT_THAT([&] { (void)product_files(lengthy); }, ThrowsMessage<InputError>(HasSubstr("to 65535")));
+}
+
+/// The cells of the table's line that begins with `begin`.
+std::vector<std::string> cells(const std::string& text, const std::string& begin) {
+  const std::size_t at = text.find("\n| " + begin + " ");
+  std::istringstream line(at == std::string::npos ? ""
+                                                  : text.substr(at + 1, text.find('\n', at + 1) - at - 1));
+  std::vector<std::string> found;
+  for (std::string cell; std::getline(line, cell, '|');) {
+    const std::size_t first = cell.find_first_not_of(' ');
+    found.push_back(first == std::string::npos ? ""
+                                               : cell.substr(first, cell.find_last_not_of(' ') - first + 1));
+  }
+  return found;
+}
+
+TEST(ProductReport, HasErrorsAndCostOfThisConfiguration) {
+  ProductRequest made = request(Readout::kHisPointer);
+  made.pointer_ports = 1;
+  made.seed = 3;
+  const std::string text = product_files(made).at("report.md");
+  const ReadoutScore score = run_bench({.sensor = made.sensor, .seed = 3}, std::vector{made.parameters},
+                                       {.frames = 42, .detection = true})
+                                 .front();
+  EXPECT_THAT(text, HasSubstr("42 frames of 96 pixels in each light, 60 acquisitions"));
+  for (const LightScore& light : score.lights) {
+    const std::vector<std::string> row = cells(text, fmt::format("{:g}", light.klux));
+    ASSERT_EQ(row.size(), 7U);
+    EXPECT_THAT(row[2], StartsWith(fmt::format("{:.2f} [", 100.0 * light.above_3_percent.value)));
+    EXPECT_THAT(row[3], StartsWith(fmt::format("{:.2f} [", 100.0 * light.above_10_percent.value)));
+    EXPECT_EQ(row[4], fmt::format("{:.1f}", 1e3 * light.rmse_m));
+    EXPECT_THAT(row[5], StartsWith(fmt::format("{:.2f} [", 100.0 * light.detected->value)));
+    EXPECT_THAT(row[6], StartsWith(fmt::format("{:.2f} [", 100.0 * light.false_alarms->value)));
+  }
+  const ArrayChoice one{.parameters = made.parameters, .rows = 6, .columns = 8, .pointer_ports = 1};
+  EXPECT_EQ(cells(text, "area of cells and memories, mm2").at(2),
+            fmt::format("{:.4g}", estimate_cost(one).mm2));
+  const double dark = std::stod(cells(text, "power at 2 klux while acquisitions stream in, mW").at(2));
+  const double bright = std::stod(cells(text, "power at 50 klux while acquisitions stream in, mW").at(2));
+  EXPECT_LT(dark, bright);
+  made.pointer_ports = 2;
+  EXPECT_GT(std::stod(cells(product_files(made).at("report.md"), "area of cells and memories, mm2").at(2)),
+            estimate_cost(one).mm2);
 }
 
 TEST(ProductFiles, HaveAPointerMemoryOfOnePortIfAskedFor) {
