@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Runs commands on the files of the last commit where no git repository is, as somebody does who unpacks the source archive:
-#   try_archive.sh [COMMAND]...   by default 'make', and the Python tests of scripts and synthesis with 'make vectors', which they need
+#   try_archive.sh [COMMAND]...   by default 'make' and 'make test'
 # The folder is a new one in TMPDIR (/tmp) and removed at the end; a log of each command is left in build/archive.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -19,7 +19,7 @@ if git rev-parse --git-dir > /dev/null 2>&1; then
   exit 1
 fi
 
-[ $# -gt 0 ] || set -- make "make vectors" "ctest --test-dir build/cpp --output-on-failure -j 2 -R '^python_(scripts|synth)'"
+[ $# -gt 0 ] || set -- make "make test"
 for command in "$@"; do
   name=$(printf '%s' "$command" | tr -cs '[:alnum:]' _ | cut -c 1-40)
   log=$logs/${name%_}.log
