@@ -290,7 +290,8 @@ std::string design_page(const DesignRequest& request, const DesignResult& result
       "parameters "
       "were estimated; {} that keep the limits, or a limit that is 10 % looser, were read in one frame of "
       "each scene and "
-      "light; the best of each read-out in {} frames of {} pixels{}. Scenes: {}, distances in proportion to "
+      "light; the best of each read-out, and the smallest that is as good, in {} frames of {} pixels{}. "
+      "Scenes: {}, distances in proportion to "
       "the sensor's "
       "range; lights: {} klux; models, exact photons, look-up tables from flat targets, seed {}. The "
       "smallest array is taken whose share is at most {:.2f} times the smallest share.\n\nCommand: `{}`\n",

@@ -284,11 +284,11 @@ DesignResult run_design(const DesignRequest& request) {
     result.options[i].screened = std::move(screened[i]);
   }
   std::set<std::size_t> chosen;
-  for (const std::size_t i : representatives(result.options, request.limits)) {
+  for (const std::size_t i : finalists(result.options, request.limits)) {
     chosen.insert(i);
   }
   for (const LimitChange& change : changes) {
-    for (const std::size_t i : representatives(result.options, change.limits)) {
+    for (const std::size_t i : finalists(result.options, change.limits)) {
       chosen.insert(i);
     }
   }

@@ -19,13 +19,9 @@ std::size_t smallest_share(std::span<const DesignOption> options, const std::vec
   return *std::ranges::min_element(among, {}, [&](std::size_t i) { return share_of(options[i]); });
 }
 
-/// The smallest array of those that are `good` beside the one with the smallest share; none of none.
-std::optional<std::size_t> smallest_of(
-    std::span<const DesignOption> options, const std::vector<std::size_t>& among,
-    const std::function<bool(const LightScore& one, const LightScore& best)>& good) {
-  if (among.empty()) {
-    return std::nullopt;
-  }
+/// The smallest array of those that are `good` beside the one with the smallest share.
+std::size_t smallest_of(std::span<const DesignOption> options, const std::vector<std::size_t>& among,
+                        const std::function<bool(const LightScore& one, const LightScore& best)>& good) {
   const std::size_t best = smallest_share(options, among);
   std::size_t chosen = best;
   for (const std::size_t i : among) {
@@ -37,11 +33,26 @@ std::optional<std::size_t> smallest_of(
   return chosen;
 }
 
+/// None of none.
 std::optional<std::size_t> choice(std::span<const DesignOption> options,
                                   const std::vector<std::size_t>& among) {
+  if (among.empty()) {
+    return std::nullopt;
+  }
   return smallest_of(options, among, [](const LightScore& one, const LightScore& best) {
     return one.above_3_percent.value <= kGoodRatio * best.above_3_percent.value;
   });
+}
+
+std::vector<std::size_t> of_readout(std::span<const DesignOption> options,
+                                    const std::vector<std::size_t>& among, Readout readout) {
+  std::vector<std::size_t> found;
+  for (const std::size_t i : among) {
+    if (options[i].candidate.readout() == readout) {
+      found.push_back(i);
+    }
+  }
+  return found;
 }
 
 /// Share of `one` less kGoodRatio times the share of `other`, over the frames that both have.
@@ -104,22 +115,29 @@ bool as_good(const LightScore& one, const LightScore& other) {
          one.above_3_percent.covering().low <= other.above_3_percent.value;
 }
 
-std::vector<std::size_t> representatives(std::span<const DesignOption> options, const DesignLimits& limits) {
+std::vector<std::size_t> finalists(std::span<const DesignOption> options, const DesignLimits& limits) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    if (limits_kept(options[i].candidate, limits).all()) {
+      kept.push_back(i);
+    }
+  }
+  // Parameters are compared by frames that all of them have read.
+  std::vector<DesignOption> screened(options.begin(), options.end());
+  for (DesignOption& option : screened) {
+    option.score.reset();
+  }
   std::vector<std::size_t> found;
   for (const Readout readout : kRtlReadouts) {
-    std::vector<std::size_t> mine;
-    for (std::size_t i = 0; i < options.size(); ++i) {
-      if (options[i].candidate.readout() == readout && limits_kept(options[i].candidate, limits).all()) {
-        mine.push_back(i);
-      }
+    const std::vector<std::size_t> mine = of_readout(options, kept, readout);
+    if (mine.empty()) {
+      continue;
     }
-    // Parameters are compared by frames that all of them have read.
-    std::vector<DesignOption> screened(options.begin(), options.end());
-    for (DesignOption& option : screened) {
-      option.score.reset();
-    }
-    if (const auto best = smallest_of(screened, mine, as_good)) {
-      found.push_back(*best);
+    const std::size_t best = smallest_share(screened, mine);
+    const std::size_t smallest = smallest_of(screened, mine, as_good);
+    found.push_back(best);
+    if (smallest != best) {
+      found.push_back(smallest);
     }
   }
   return found;
@@ -127,21 +145,25 @@ std::vector<std::size_t> representatives(std::span<const DesignOption> options, 
 
 Recommendation recommend(std::span<const DesignOption> options, const DesignLimits& limits) {
   Recommendation found;
-  found.within = representatives(options, limits);
-  std::ranges::sort(found.within, {}, [&](std::size_t i) { return share_of(options[i]); });
-  found.chosen = choice(options, found.within);
+  const std::vector<std::size_t> all = finalists(options, limits);
+  found.chosen = choice(options, all);
   std::vector<std::size_t> others;
-  for (const std::size_t i : found.within) {
-    if (i != found.chosen) {
-      others.push_back(i);
+  for (const Readout readout : kRtlReadouts) {
+    const auto best = choice(options, of_readout(options, all, readout));
+    if (best && readout == options[*found.chosen].candidate.readout()) {
+      found.within.push_back(*found.chosen);
+    } else if (best) {
+      found.within.push_back(*best);
+      others.push_back(*best);
     }
   }
+  std::ranges::sort(found.within, {}, [&](std::size_t i) { return share_of(options[i]); });
   found.competitor = choice(options, others);
   return found;
 }
 
 std::vector<std::size_t> contenders(std::span<const DesignOption> options, const DesignLimits& limits) {
-  const std::vector<std::size_t> within = representatives(options, limits);
+  const std::vector<std::size_t> within = finalists(options, limits);
   const std::size_t best = smallest_share(options, within);
   std::vector<std::size_t> found = {best};
   bool settled = true;

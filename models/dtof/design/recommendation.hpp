@@ -32,9 +32,10 @@ std::vector<LimitChange> limit_changes(const DesignLimits& limits);
 /// True if `one` has no larger share of errors above 3 % than `other`, as far as their intervals can tell.
 bool as_good(const LightScore& one, const LightScore& other);
 
-/// Returns the best option within the limits for each read-out that has one. Best is the smallest share of
-/// errors above 3 % at the worst light level; among equally good options (as_good), the smallest array.
-std::vector<std::size_t> representatives(std::span<const DesignOption> options, const DesignLimits& limits);
+/// Returns the options that go to the final, by the frame that all options have read: for each read-out that
+/// has options within the limits, the one with the smallest share of errors above 3 % at its worst light
+/// level, and the smallest array of those that are as good (as_good).
+std::vector<std::size_t> finalists(std::span<const DesignOption> options, const DesignLimits& limits);
 
 /// A smaller array is preferred if its share of errors is at most this many times the smallest share.
 inline constexpr double kGoodRatio = 1.05;
@@ -45,11 +46,11 @@ struct Recommendation {
   std::optional<std::size_t> competitor;  ///< the choice if the chosen read-out were not available
 };
 
-/// Chooses among the representatives: the smallest array whose share of errors above 3 % at its worst light
+/// Chooses among the finalists: the smallest array whose share of errors above 3 % at its worst light
 /// level is at most kGoodRatio times the smallest share.
 Recommendation recommend(std::span<const DesignOption> options, const DesignLimits& limits);
 
-/// Returns the representatives that more frames could make the choice: those whose frames do not show, at
+/// Returns the finalists that more frames could make the choice: those whose frames do not show, at
 /// 95 %, that their share is larger than kGoodRatio times the smallest one. Empty if the frames settle the
 /// choice: for each of them it shows whether a smaller array is within kGoodRatio of the best, and that the
 /// best is within kGoodRatio of a larger array. Frames of the same number have the same photons.

@@ -107,10 +107,25 @@ TEST(Recommendation, AShareOfOneFactorAboveTheLeastIsGoodEnough) {
 TEST(Recommendation, FinalScoresDecideBetweenReadoutsAndScreenedOnesBetweenParameters) {
   std::vector<DesignOption> options = {option(Readout::kSifh, 0.20, 2.0), option(Readout::kSifh, 0.30, 1.0),
                                        option(Readout::kFifh, 0.25, 1.0)};
-  EXPECT_THAT(representatives(options, {}), ElementsAre(0, 2));
+  EXPECT_THAT(finalists(options, {}), ElementsAre(0, 2));
   options[0].score = option(Readout::kSifh, 0.40, 2.0).screened;
   EXPECT_EQ(recommend(options, {}).chosen, 2U);
-  EXPECT_THAT(representatives(options, {}), ElementsAre(0, 2));
+  EXPECT_THAT(finalists(options, {}), ElementsAre(0, 2));
+}
+
+// 0.2000 and 0.2040 are the same to one frame, whose interval is 0.01 wide. More frames tell.
+TEST(Recommendation, BestAndSmallestParametersOfAReadoutGoToTheFinal) {
+  std::vector<DesignOption> options = {option(Readout::kSifh, 0.2000, 2.0),
+                                       option(Readout::kSifh, 0.2040, 1.0),
+                                       option(Readout::kSifh, 0.2020, 1.5), option(Readout::kFifh, 0.4, 0.5)};
+  EXPECT_THAT(finalists(options, {}), UnorderedElementsAre(0, 1, 3));
+  EXPECT_EQ(recommend(options, {}).chosen, 1U) << "2 % more errors for half of the area";
+  EXPECT_THAT(recommend(options, {}).within, ElementsAre(1, 3));
+  options[0].score = option(Readout::kSifh, 0.1900, 2.0).screened;
+  options[1].score = option(Readout::kSifh, 0.2040, 1.0).screened;
+  EXPECT_EQ(recommend(options, {}).chosen, 0U);
+  EXPECT_THAT(recommend(options, {}).within, ElementsAre(0, 3)) << "one set of parameters for each read-out";
+  EXPECT_EQ(recommend(options, {}).competitor, 3U);
 }
 
 TEST(Recommendation, EachLimitChangesByTenPerCentToBothSides) {
