@@ -145,7 +145,10 @@ void hold_contest(const DesignRequest& request, BenchEffort effort, DesignResult
   effort.detection = false;
   std::vector<std::size_t> left = contenders(result.options, request.limits);
   for (double work = request.contest_work; !left.empty();) {
-    const auto pixels = static_cast<double>(result.options[left.front()].best_known().pixels);
+    // A frame of a few pixels takes as long as one of this work.
+    constexpr double kLeastWork = 1e5;
+    const double pixels = std::max(static_cast<double>(result.options[left.front()].best_known().pixels),
+                                   kLeastWork / std::max(request.bench.sensor.acquisitions, 1U));
     const double most =
         pixels_of(work, left.size(), request, 1) * static_cast<double>(request.bench.scenes.size()) / pixels;
     const int frames = std::min(kMoreFrames * effort.frames, static_cast<int>(most));

@@ -53,7 +53,8 @@ Recommendation recommend(std::span<const DesignOption> options, const DesignLimi
 /// Returns the finalists that more frames could make the choice: those whose frames do not show, at
 /// 95 %, that their share is larger than kGoodRatio times the smallest one. Empty if the frames settle the
 /// choice: for each of them it shows whether a smaller array is within kGoodRatio of the best, and that the
-/// best is within kGoodRatio of a larger array. Frames of the same number have the same photons.
+/// best is within kGoodRatio of a larger array. Frames of the same number are compared, because
+/// read-outs with equal SLOTS see the same photons in them.
 std::vector<std::size_t> contenders(std::span<const DesignOption> options, const DesignLimits& limits);
 
 /// Change of a single limit, e.g. "--max-mm2 1.19", after which this read-out meets all limits.

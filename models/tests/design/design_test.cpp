@@ -155,6 +155,19 @@ TEST(Design, ContendersAreReadInMoreFramesUntilTheChoiceIsSettled) {
       << "the contest begins with the same frames";
 }
 
+// Millions of such frames would fit a budget that counts pixels alone.
+TEST(Design, AContestOfOnePixelIsShort) {
+  DesignRequest request = small_request();
+  request.bench.sensor.columns = 1;
+  request.bench.sensor.rows = 1;
+  request.bench.sensor.acquisitions = 20;
+  request.contest_work = 2e9;
+  request.detection = false;
+  const DesignResult found = run_design(request);
+  EXPECT_GT(found.frames, 1000);
+  EXPECT_LE(found.contest_frames, 2e9 / 1e5 / 2) << "two contenders at least";
+}
+
 TEST(Design, AReadoutWhoseMemoryCannotBeMadeIsLeftOut) {
   DesignRequest request = small_request();
   request.bench.sensor.np = 16;
