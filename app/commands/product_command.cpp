@@ -30,6 +30,7 @@ struct ProductOptions {
   bool self_test = false;
   bool measure = false;
   int pointer_ports = 2;
+  int columns_per_sram = 1;
   std::string out;
   bool json = false;
   std::string command_line;
@@ -61,6 +62,7 @@ void run_product_command(const ProductOptions& options, JsonResult& result) {
                          .sensor = described.model,
                          .parameters = readouts.front(),
                          .pointer_ports = options.pointer_ports,
+                         .columns_per_sram = options.columns_per_sram,
                          .scene = parse_scene(options.scene),
                          .klux = options.klux,
                          .seed = options.seed,
@@ -81,10 +83,7 @@ void run_product_command(const ProductOptions& options, JsonResult& result) {
   result["readout"] = readout_name(request.parameters.readout);
   result["parameters"] = request.parameters.to_string();
   result.add_folder(options.out);
-  fmt::print("{}\n{} files in {}; `make -C {}` runs and checks them.\n",
-             frame_fit(request.parameters, request.sensor.rows, request.sensor.columns,
-                       request.sensor.acquisitions, request.budget)
-                 .sentence,
+  fmt::print("{}\n{} files in {}; `make -C {}` runs and checks them.\n", product_fit(request).sentence,
              files.size(), options.out, options.out);
 }
 
@@ -111,6 +110,12 @@ void add_product_command(CLI::App& app, const std::string& command_line) {
   command
       ->add_option("--pointer-ports", options->pointer_ports,
                    "ports of the pointers' memory: 2, or 1, which is smaller, with SLOTS of at least 2")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--columns-per-sram", options->columns_per_sram,
+          "columns of the sensor that share an SRAM, one after the other: fewer, larger SRAMs and longer\n"
+          "frames, with the same results; 1 for a pool read-out")
       ->capture_default_str();
   command->add_flag("--self-test", options->self_test,
                     "with the built-in self-test, whose checksum the driver's header and the bench have");

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "dtof/core/frame_time.hpp"
-#include "dtof/design/latency.hpp"
+#include "dtof/core/latency.hpp"
 #include "dtof/report/table.hpp"
 
 namespace dtof {
@@ -78,15 +78,17 @@ std::string name_of_choice(const DesignRequest& request, const DesignOption& opt
   const std::size_t end = options.find(' ', std::string("--readout ").size());
   const ArrayChoice& array = option.candidate.array;
   return title_of(option) + (end == std::string::npos ? "" : options.substr(end)) +
-         (array.arrays > 1 ? fmt::format(", {} arrays of {} columns", array.arrays, array.columns) : "");
+         (array.arrays > 1
+              ? fmt::format(", {} arrays of {} columns", array.arrays, array.columns * array.columns_per_sram)
+              : "");
 }
 
 /// What the sensor of a product has to be where it is not the whole one.
 std::string product_note(const DesignOption& option) {
   const ArrayChoice& array = option.candidate.array;
-  return array.arrays > 1
-             ? fmt::format("  # with columns = {} in the sensor file, {} times", array.columns, array.arrays)
-             : "";
+  return array.arrays > 1 ? fmt::format("  # with columns = {} in the sensor file, {} times",
+                                        array.columns * array.columns_per_sram, array.arrays)
+                          : "";
 }
 
 /// How many frames compared the contenders, and whether that was enough.
@@ -201,6 +203,12 @@ std::string design_recommendation(const DesignRequest& request, const DesignResu
     text += fmt::format(" Nearest competitor: {}, {}, {} %.", name_of_choice(request, other),
                         cost_text(request, other), share_text(other.best_known().worst().above_3_percent));
   }
+  const double least_hz = static_cast<double>(chosen.candidate.clocks) * request.limits.budget.frames_per_s;
+  if (least_hz < 0.9 * request.limits.budget.clock_hz) {
+    text +=
+        fmt::format(" Its frames still fit at {:.0f} MHz, with {:.0f} mW.", std::ceil(least_hz * kMegahertz),
+                    chosen.candidate.mw(std::ceil(least_hz * kMegahertz) / kMegahertz));
+  }
   if (near_a_limit(request, chosen)) {
     text += " The estimate's error could take the array beyond a limit: --confirm measures it.";
   }
@@ -232,9 +240,9 @@ std::vector<std::string> design_clocks(const DesignRequest& request, const Desig
   const SensorModel& sensor = request.bench.sensor;
   std::vector<std::string> sentences;
   for (const std::size_t i : result.recommendation.within) {
-    const ReadoutParameters& parameters = result.options[i].candidate.array.parameters;
+    const ArrayChoice& array = result.options[i].candidate.array;
     sentences.push_back(
-        frame_fit(parameters, sensor.rows, sensor.columns, sensor.acquisitions, request.limits.budget)
+        frame_fit(array.parameters, array.rows, array.columns, sensor.acquisitions, request.limits.budget)
             .sentence);
   }
   return sentences;

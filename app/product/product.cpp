@@ -15,6 +15,8 @@
 
 #include "dtof/analytic/fidelity.hpp"
 #include "dtof/core/error.hpp"
+#include "dtof/core/folded_source.hpp"
+#include "dtof/design/array_memories.hpp"
 #include "dtof/frame/flat_calibration.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/photon/photon_source.hpp"
@@ -56,24 +58,23 @@ std::string filled(std::string_view name, const std::vector<std::pair<std::strin
 
 void check(const ProductRequest& request) {
   request.parameters.validate();
-  product_array(request);
+  const RtlConfiguration array = product_array(request);
   const SensorModel& sensor = request.sensor;
   constexpr int kMostColumns = 1024;
-  constexpr int kMostRows = 4096;
-  constexpr int kMostLines = 65530;
   constexpr std::uint32_t kMostAcquisitionsOfRtl = 65535;
-  if (sensor.columns > kMostColumns || sensor.rows > kMostRows || sensor.rows * sensor.slots > kMostLines) {
+  if (array.sram_num > kMostColumns || array.pixels_per_sram > kMostSubsystemRows ||
+      array.pixels_per_sram * sensor.slots > kMostSubsystemLines) {
     throw InputError(fmt::format(
         "product: {} x {} pixels of {} slots; dtof_subsystem has at most {} columns, {} rows, and {} "
         "rows times slots",
-        sensor.columns, sensor.rows, sensor.slots, kMostColumns, kMostRows, kMostLines));
+        array.sram_num, array.pixels_per_sram, sensor.slots, kMostColumns, kMostSubsystemRows,
+        kMostSubsystemLines));
   }
   if (sensor.acquisitions > kMostAcquisitionsOfRtl) {
     throw InputError(fmt::format("product: {} acquisitions; the RTL counts 16 bits of them, to {}",
                                  sensor.acquisitions, kMostAcquisitionsOfRtl));
   }
-  const FrameFit fit =
-      frame_fit(request.parameters, sensor.rows, sensor.columns, sensor.acquisitions, request.budget);
+  const FrameFit fit = product_fit(request);
   if (!fit.fits) {
     throw InputError("product: " + fit.sentence);
   }
@@ -96,7 +97,7 @@ std::string top(const ProductRequest& request) {
     parameters +=
         fmt::format("{}      .{}({})", parameters.empty() ? "" : ",\n", setting.name, setting.value);
   }
-  const int width = 8 * ((request.sensor.columns * request.parameters.np + 7) / 8);
+  const int width = 8 * ((product_array(request).sram_num * request.parameters.np + 7) / 8);
   struct Port {
     const char* direction;
     std::string type;
@@ -299,26 +300,48 @@ std::string driver_header(const ProductRequest& request, const SelfTest& self_te
       "#ifndef DTOF_PRODUCT_H\n#define DTOF_PRODUCT_H\n\n#include \"dtof.h\"\n\n"
       "#define DTOF_PRODUCT_TIMESTAMP_BITS {}\n#define DTOF_PRODUCT_FRACTION_BITS {}\n#define "
       "DTOF_PRODUCT_ACQUISITIONS {}\n"
+      "#define DTOF_PRODUCT_COLUMNS {}\n#define DTOF_PRODUCT_ROWS {}\n#define "
+      "DTOF_PRODUCT_COLUMNS_PER_SRAM {}\n"
       "#define DTOF_PRODUCT_CODE_PS {:.6f}\n#define DTOF_PRODUCT_FWHM_PS {:.6f}\n#define DTOF_PRODUCT_POINTS "
       "{}\n\n"
+      "/* The sensor's column and row of a result, from the column and the row of its word. */\n"
+      "static inline unsigned dtof_product_column(unsigned column, unsigned row) {{\n"
+      "  return column * DTOF_PRODUCT_COLUMNS_PER_SRAM + row / DTOF_PRODUCT_ROWS;\n}}\n\n"
+      "static inline unsigned dtof_product_row(unsigned row) {{ return row % DTOF_PRODUCT_ROWS; }}\n\n"
       "static inline dtof_settings dtof_product_settings(const dtof_device *device) {{\n"
       "  dtof_settings settings = dtof_default_settings(device, DTOF_PRODUCT_ACQUISITIONS);\n{}  return "
       "settings;\n}}\n\n{}{}"
       "static const dtof_point dtof_product_table[DTOF_PRODUCT_POINTS] = {{\n{}}};\n\n#endif\n",
       kLicence, readout_title(request.parameters.readout), request.sensor.name, calibration.description(),
       request.klux, request.parameters.np, result_fraction_bits(request.parameters),
-      request.sensor.acquisitions, request.sensor.time_resolution_s() * 1e12,
-      request.sensor.pulse_fwhm_s * 1e12, knots.size(), changes,
+      request.sensor.acquisitions, request.sensor.columns, request.sensor.rows, request.columns_per_sram,
+      request.sensor.time_resolution_s() * 1e12, request.sensor.pulse_fwhm_s * 1e12, knots.size(), changes,
       request.self_test ? self_test_settings(self_test, schedule) : "", template_array(pool.coarse_template),
       points);
+}
+
+/// Which pixels a column of the array has; nothing if a column of the array is one of the sensor.
+std::string folded_text(const ProductRequest& request) {
+  const int together = request.columns_per_sram;
+  return together == 1 ? ""
+                       : fmt::format(
+                             " {0} columns of the sensor share an SRAM, one after the other: column c of the "
+                             "array has the\n"
+                             "sensor's columns {0} c to {0} c + {1}, and its row r is row r mod {2} of the "
+                             "sensor's column "
+                             "{0} c + r / {2}.\nThis is the order of the lines that the source sends, and of "
+                             "the results. "
+                             "`dtof_product.h` has functions for it.",
+                             together, together - 1, request.sensor.rows);
 }
 
 std::uint32_t vector_acquisitions(const ProductRequest& request) {
   constexpr std::uint64_t kMostDigits = 4U << 20U;
   const SensorModel& sensor = request.sensor;
-  const std::uint64_t digits = static_cast<std::uint64_t>(sensor.rows) *
+  const RtlConfiguration array = product_array(request);
+  const std::uint64_t digits = static_cast<std::uint64_t>(array.pixels_per_sram) *
                                static_cast<std::uint64_t>(sensor.slots) *
-                               (static_cast<std::uint64_t>(sensor.columns * sensor.np) / 4 + 2);
+                               (static_cast<std::uint64_t>(array.sram_num * sensor.np) / 4 + 2);
   const std::uint32_t most =
       request.vector_acquisitions != 0
           ? request.vector_acquisitions
@@ -339,12 +362,28 @@ RtlConfiguration product_array(const ProductRequest& request) {
                                    request.pointer_ports));
     }
   }
+  const int together = request.columns_per_sram;
+  if (together < 1 || together > request.sensor.columns) {
+    throw InputError(fmt::format("product: --columns-per-sram is {}, must be 1 to the sensor's {} columns",
+                                 together, request.sensor.columns));
+  }
+  if (together > 1 && is_pool_readout(request.parameters.readout)) {
+    throw InputError(
+        fmt::format("product: --columns-per-sram is {}, must be 1: columns of {} help each other", together,
+                    readout_title(request.parameters.readout)));
+  }
   RtlConfiguration configuration;
   configuration.parameters = request.parameters;
-  configuration.pixels_per_sram = request.sensor.rows;
-  configuration.sram_num = request.sensor.columns;
+  configuration.pixels_per_sram = request.sensor.rows * together;
+  configuration.sram_num = (request.sensor.columns + together - 1) / together;
   configuration.pointer_ports = request.pointer_ports;
   return configuration;
+}
+
+FrameFit product_fit(const ProductRequest& request) {
+  const RtlConfiguration array = product_array(request);
+  return frame_fit(request.parameters, array.pixels_per_sram, array.sram_num, request.sensor.acquisitions,
+                   request.budget);
 }
 
 std::map<std::string, std::string> product_files(const ProductRequest& request) {
@@ -357,21 +396,26 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
       request.scene,
       {.columns = sensor.columns, .rows = sensor.rows, .reflectivity = sensor.default_reflectivity});
   const PhotonSource photons(sensor, targets, request.klux, request.seed);
-  const ArrayParameters array{.readout = request.parameters, .rows = sensor.rows, .columns = sensor.columns};
-  FrameVectors vectors = source_vectors(array, photons);
+  const FoldedSource streams(photons, request.columns_per_sram);
+  const ArrayParameters array{
+      .readout = request.parameters, .rows = streams.rows(), .columns = streams.columns()};
+  FrameVectors vectors = source_vectors(array, streams);
   const PoolSchedule schedule(sensor.acquisitions, request.parameters.pool);
   const bool pool = is_pool_readout(request.parameters.readout);
-  const bool small = sensor.columns * sensor.rows <= kMostIcarusPixels;
+  const bool small = array.columns * array.rows <= kMostIcarusPixels;
   const CodeGate gate = request.parameters.time_gate.value_or(CodeGate{0, request.parameters.no_detection()});
   const std::uint64_t clocks =
-      predicted_frame_clocks(request.parameters, sensor.rows, sensor.columns, sensor.acquisitions);
+      predicted_frame_clocks(request.parameters, array.rows, array.columns, sensor.acquisitions);
   const SelfTest self_test = request.self_test ? self_test_of(request, sensor.acquisitions) : SelfTest{};
   const auto number = [](auto value) { return fmt::format("{}", value); };
   const std::vector<std::pair<std::string, std::string>> values = {
       {"TITLE", std::string(readout_title(request.parameters.readout))},
       {"SENSOR", sensor.name},
-      {"COLUMNS", number(sensor.columns)},
-      {"ROWS", number(sensor.rows)},
+      {"COLUMNS", number(array.columns)},
+      {"ROWS", number(array.rows)},
+      {"SENSOR_COLUMNS", number(sensor.columns)},
+      {"SENSOR_ROWS", number(sensor.rows)},
+      {"FOLDED", folded_text(request)},
       {"NP", number(request.parameters.np)},
       {"SLOTS", number(request.parameters.slots)},
       {"ACQUISITIONS", number(sensor.acquisitions)},

@@ -20,6 +20,9 @@ struct ProductRequest {
   SensorModel sensor;
   ReadoutParameters parameters;
   int pointer_ports = 2;  ///< POINTER_PORTS: 2, or 1 for a read-out with pointers and SLOTS of at least 2
+  /// Columns of the sensor that share an SRAM, one after the other (FoldedSource): 1 to the sensor's columns;
+  /// 1 for a pool read-out.
+  int columns_per_sram = 1;
   Scene scene = Scene::kRoom;  ///< scene of the test vectors
   double klux = 14.0;
   std::uint64_t seed = 1;
@@ -31,8 +34,12 @@ struct ProductRequest {
   std::string measurements;  ///< Markdown with measured figures; empty if nothing was measured
 };
 
-/// The product's array. Throws InputError for a number of ports that its read-out cannot have.
+/// The product's array. Throws InputError for numbers of ports and of columns for each SRAM that its read-out
+/// cannot have.
 RtlConfiguration product_array(const ProductRequest& request);
+
+/// Whether a frame of the product's array fits its clock and frame rate.
+FrameFit product_fit(const ProductRequest& request);
 
 /// Files of a product by path: top, RTL, file lists, constraints, driver, vectors, bench. Equal requests give
 /// equal bytes. Throws InputError for parameters that dtof_subsystem does not support, or a frame that does

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/latency.hpp"
 #include "dtof/design/bench.hpp"
 #include "dtof/design/estimate.hpp"
-#include "dtof/design/latency.hpp"
 #include "dtof/report/table.hpp"
 
 namespace dtof {
@@ -70,14 +70,16 @@ std::string cost(const ProductRequest& request) {
   constexpr double kMegahertz = 1e-6;
   const SensorModel& sensor = request.sensor;
   const double clock_hz = request.budget.clock_hz;
+  const RtlConfiguration product = product_array(request);
   const ArrayChoice array{.parameters = request.parameters,
-                          .rows = sensor.rows,
-                          .columns = sensor.columns,
+                          .rows = product.pixels_per_sram,
+                          .columns = product.sram_num,
                           .arrays = 1,
-                          .pointer_ports = request.pointer_ports};
+                          .pointer_ports = request.pointer_ports,
+                          .columns_per_sram = request.columns_per_sram};
   const CostEstimate estimate = estimate_cost(array);
   const EstimateErrors& errors = EstimateCoefficients::built_in().errors;
-  const auto clocks = predicted_latency_clocks(request.parameters, sensor.rows, sensor.columns);
+  const auto clocks = predicted_latency_clocks(request.parameters, array.rows, array.columns);
   Table table({"figure of the array", "value"});
   table.add({"area of cells and memories, mm2", fmt::format("{:.4g}", estimate.mm2)});
   table.add({"fastest clock in the slow corner, MHz", fmt::format("{:.0f}", estimate.fmax_mhz)});
@@ -116,7 +118,6 @@ std::string section(const ProductRequest& request, std::string (*text)(const Pro
 }  // namespace
 
 std::string product_report(const ProductRequest& request, std::span<const RtlSetting> settings) {
-  const SensorModel& sensor = request.sensor;
   std::string parameters;
   for (const RtlSetting& setting : settings) {
     parameters += fmt::format("| {} | {} |\n", setting.name, setting.value);
@@ -124,9 +125,7 @@ std::string product_report(const ProductRequest& request, std::span<const RtlSet
   return fmt::format(
       "# Report\n\n{}\n\n## Accuracy\n\n{}\n## Area, timing and power\n\n{}{}\n## Parameters\n\n"
       "| parameter of dtof_subsystem | value |\n|---|---:|\n{}",
-      frame_fit(request.parameters, sensor.rows, sensor.columns, sensor.acquisitions, request.budget)
-          .sentence,
-      section(request, accuracy),
+      product_fit(request).sentence, section(request, accuracy),
       request.measurements.empty() ? "" : "### Measured\n\n" + request.measurements + "\n\n### Estimated\n\n",
       section(request, cost), parameters);
 }

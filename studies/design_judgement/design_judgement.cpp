@@ -180,9 +180,9 @@ SensorJudgement judge_sensor(const JudgementSettings& settings, const DesignRequ
   const DesignResult result = settings.design(with_threads);
   const DesignCandidate& chosen = result.options[*result.recommendation.chosen].candidate;
   const std::vector<DesignCandidate> grid = full_grid(request);
-  const std::vector<DesignCandidate> kept = kept_of(grid, request.limits);
+  const std::vector<DesignCandidate> kept = smallest_of_each(kept_of(grid, request.limits));
   SensorJudgement judgement;
-  judgement.grid = grid.size();
+  judgement.grid = smallest_of_each(grid).size();
   judgement.kept = kept.size();
   judgement.read = result.options.size();
 

@@ -130,20 +130,7 @@ std::vector<DesignCandidate> full_grid(const DesignRequest& request) {
           static_cast<double>(bench.scenes.size());
     }
   }
-  std::vector<DesignCandidate> grid;
-  for (const ReadoutParameters& parameters : searched_parameters(bench.sensor)) {
-    try {
-      const ArrayChoice array = array_for(parameters, bench.sensor, request.limits.budget.clock_hz);
-      grid.push_back({.array = array,
-                      .cost = estimate_cost(array),
-                      .slots_taken = slots_taken.at(parameters.slots),
-                      .clocks = predicted_frame_clocks(parameters, array.rows, array.columns,
-                                                       bench.sensor.acquisitions)});
-    } catch (const InputError&) {
-      continue;  // a memory that cannot be made
-    }
-  }
-  return grid;
+  return all_candidates(bench.sensor, request.limits.budget.clock_hz, slots_taken);
 }
 
 std::vector<DesignCandidate> kept_of(const std::vector<DesignCandidate>& grid, const DesignLimits& limits) {
@@ -151,6 +138,20 @@ std::vector<DesignCandidate> kept_of(const std::vector<DesignCandidate>& grid, c
   std::ranges::copy_if(grid, std::back_inserter(kept),
                        [&](const DesignCandidate& c) { return limits_kept(c, limits).all(); });
   return kept;
+}
+
+std::vector<DesignCandidate> smallest_of_each(const std::vector<DesignCandidate>& candidates) {
+  std::vector<DesignCandidate> smallest;
+  for (const DesignCandidate& one : candidates) {
+    const auto found = std::ranges::find(smallest, one.array.parameters,
+                                         [](const DesignCandidate& c) { return c.array.parameters; });
+    if (found == smallest.end()) {
+      smallest.push_back(one);
+    } else if (one.cost.mm2 < found->cost.mm2) {
+      *found = one;
+    }
+  }
+  return smallest;
 }
 
 RandomSensor draw_sensor(std::uint64_t seed, int number, const SensorRanges& ranges) {

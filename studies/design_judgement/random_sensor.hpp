@@ -32,6 +32,9 @@ struct RandomSensor {
 std::vector<DesignCandidate> full_grid(const DesignRequest& request);
 /// Those that keep the limits.
 std::vector<DesignCandidate> kept_of(const std::vector<DesignCandidate>& grid, const DesignLimits& limits);
+/// Returns the candidate with the smallest array for each set of parameters: equal parameters have equal
+/// results.
+std::vector<DesignCandidate> smallest_of_each(const std::vector<DesignCandidate>& candidates);
 
 /// Draws the sensor with this number. A quarter of the sensors has no limit but the default frame rate, a
 /// quarter a limit of area, a quarter a limit of power, and a quarter a high frame rate. A limit is a random

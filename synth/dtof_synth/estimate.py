@@ -37,9 +37,11 @@ UNSEEN = (HELD_OUT, "left out")  # the kinds of errors
 LIGHTS = ("day", "dusk")
 POWER_PARTS = ("columns", "shared", "sram", "clock", "leakage")
 # A column's logic is linear in these; in the doublings of the pixels: small arrays need fewer hold buffers.
-FEATURES = ("NP", "NB", "COUNT_WIDTH", "FRACTION_BITS", "CONFIDENCE_WIDTH", "POINTER_PORTS", "TIME_GATE", "PIXELS")
+FEATURES = ("NP", "NB", "COUNT_WIDTH", "FRACTION_BITS", "CONFIDENCE_WIDTH", "POINTER_PORTS", "TIME_GATE", "LABELS",
+            "PIXELS")
 FAMILIES = ("pointer", "histogram", "pool")
 RIDGE = 0.05
+AFTER_ACCESS_NS = 0.35  # from an SRAM's data to a register, with setup and uncertainty
 GOALS = {"area": 0.05, "power": 0.10}
 
 
@@ -70,6 +72,10 @@ def features(configuration: Configuration, reference: Configuration) -> list[flo
         return configuration.parameters.get(name, 0) - reference.parameters.get(name, 0)
 
     return [*(float(difference(name)) for name in FEATURES[:-1]), math.log2(configuration.pixels / reference.pixels)]
+
+
+def _labels_beyond(item: Configuration, reference: Configuration) -> int:
+    return item.parameters.get("LABELS", 0) - reference.parameters.get("LABELS", 0)
 
 
 def _macro_area(sizes: dict) -> float:
@@ -103,11 +109,17 @@ class Model:
     references: dict[str, Reference]
     slopes: dict[str, list[float]]  # of a family's columns, um2
     control_slopes: dict[str, float]  # um2 a column
+    engine_um2_a_label: float
     period_slope_ns: float  # a column beyond the reference's
     data_exponent: float  # of NP, to which a column's data power is proportional
 
     def _reference(self, configuration: Configuration) -> Reference:
         return given(self.references.get(configuration.readout), f"no estimate of {configuration.readout}")
+
+    def engine_um2(self, item: Configuration) -> float:
+        """Logic of an engine; 0 for a read-out without engines."""
+        one = self._reference(item)
+        return one.engine + self.engine_um2_a_label * _labels_beyond(item, one.configuration)
 
     def column_um2(self, item: Configuration) -> float:
         one = self._reference(item)
@@ -120,7 +132,7 @@ class Model:
                    0.1 * one.control)
 
     def total_mm2(self, item: Configuration) -> float:
-        shared = self.control_um2(item) + item.engines * (self._reference(item).engine + _macro_area(engine_memories(item)))
+        shared = self.control_um2(item) + item.engines * (self.engine_um2(item) + _macro_area(engine_memories(item)))
         shared += _macro_area(shared_memories(item))
         srams = _macro_area(memories(item)) / item.module_columns
         return ((self.column_um2(item) + srams) * item["SRAM_NUM"] + shared) * 1e-6
@@ -128,16 +140,18 @@ class Model:
     def fmax_mhz(self, item: Configuration) -> float:
         one = self._reference(item)
         beyond = max(item["SRAM_NUM"] - one.configuration["SRAM_NUM"], 0)
-        return 1e3 / (1e3 / one.fmax_mhz + beyond * self.period_slope_ns)
+        sizes = [*memories(item).values(), *engine_memories(item).values()]
+        access = max(sram_model.macro(size).access_slow for size in sizes)
+        return 1e3 / max(1e3 / one.fmax_mhz + beyond * self.period_slope_ns, access + AFTER_ACCESS_NS)
 
     def mw(self, item: Configuration, light: str) -> float:
         one = self._reference(item)
         part = one.power[light]
         base = one.configuration
         columns = item["SRAM_NUM"] / base["SRAM_NUM"]
-        shared = (self.control_um2(item) + item.engines * one.engine) / (one.control + base.engines * one.engine)
+        shared = (self.control_um2(item) + item.engines * self.engine_um2(item)) / (one.control + base.engines * one.engine)
         # Hold buffers are not clocked.
-        clocked = ((one.column * item["SRAM_NUM"] + self.control_um2(item) + item.engines * one.engine)
+        clocked = ((one.column * item["SRAM_NUM"] + self.control_um2(item) + item.engines * self.engine_um2(item))
                    / (one.column * base["SRAM_NUM"] + one.control + base.engines * one.engine))
         leakage = ((part["leakage"] - _macro_leakage_mw(base)) * self._logic_um2(item) / self._logic_um2(base)
                    + _macro_leakage_mw(item))
@@ -146,7 +160,7 @@ class Model:
 
     def _logic_um2(self, item: Configuration) -> float:
         return (self.column_um2(item) * item["SRAM_NUM"] + self.control_um2(item)
-                + item.engines * self._reference(item).engine)
+                + item.engines * self.engine_um2(item))
 
 
 def _solve(rows: list[list[float]], wanted: list[float]) -> list[float]:
@@ -203,11 +217,18 @@ def fit(points: list[Measured], steps: list[Step]) -> Model:
             shared = offset + control["pool"] * item["SRAM_NUM"]
             engine = (base.shared - shared) / item.engines
         references[readout] = Reference(item, base.column, shared, engine, base.fmax_mhz, base.power)
+    grown_engines = []
+    for point in used:
+        reference = references[point.configuration.readout]
+        more = _labels_beyond(point.configuration, reference.configuration)
+        if more and point.engines is not None:
+            grown_engines.append((more, point.engines / point.configuration.engines - reference.engine))
+    a_label = sum(x * y for x, y in grown_engines) / max(sum(x * x for x, _ in grown_engines), 1)
     wide = [(point.configuration["SRAM_NUM"] - bases[point.configuration.readout].configuration["SRAM_NUM"],
              1e3 / point.fmax_mhz - 1e3 / bases[point.configuration.readout].fmax_mhz) for point in used]
     beyond = [(columns, late) for columns, late in wide if columns > 0]
     period = max(sum(x * y for x, y in beyond) / max(sum(x * x for x, _ in beyond), 1), 0.0)
-    return Model(references, slopes, control, period, _data_exponent(used, references))
+    return Model(references, slopes, control, a_label, period, _data_exponent(used, references))
 
 
 def _data_exponent(used: list[Measured], references: dict[str, Reference]) -> float:
@@ -354,6 +375,7 @@ def coefficients(root: Path, model: Model, found: list[Error]) -> str:
         lines += [f"{figure} = {worst(found, figure, UNSEEN):.4f}", f"{figure}_rms = {rms(found, figure, UNSEEN):.4f}"]
     for name, slopes in model.slopes.items():
         lines += ["", f"[family.{name}]", f"control_um2_a_column = {model.control_slopes[name]:.3f}",
+                  f"engine_um2_a_label = {model.engine_um2_a_label if name == 'pool' else 0.0:.3f}",
                   *(f"{feature} = {slope:.2f}" for feature, slope in zip(FEATURES, slopes))]
     for readout, one in model.references.items():
         item = one.configuration

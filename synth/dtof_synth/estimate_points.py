@@ -11,7 +11,8 @@ from . import technology as technologies
 from .run import Result
 
 # Their netlists are simulated with a scene's photons, which takes a minute each.
-WITH_POWER = ("estimate_hispointer_64x48", "estimate_fifh_100x80", "estimate_poolpointer_64x48", "estimate_lean_64x48")
+WITH_POWER = ("estimate_hispointer_64x48", "estimate_fifh_100x80", "estimate_poolpointer_64x48", "estimate_lean_64x48",
+              "estimate_ezpointer_25x1280", "estimate_poolpointer_labels4")
 
 
 def _power(part: scene_power.Parts) -> dict[str, float]:

@@ -113,7 +113,8 @@ TEST_F(Product, WithASelfTestRunsItInItsBench) {
   std::ofstream(folder_ / "fog.toml") << kSensor << "\n[fog]\nextinction_per_m = 0.1\n";
   const std::string fog =
       fmt::format("{} product --sensor fog.toml --self-test --vector-acquisitions 30 ", DTOF_PROGRAM);
-  for (const char* readout : {"ezpointer --code-gate 20 500", "poolpointer-lean --template"}) {
+  for (const char* readout :
+       {"ezpointer --code-gate 20 500 --columns-per-sram 3", "poolpointer-lean --template"}) {
     SCOPED_TRACE(readout);
     ASSERT_EQ(shell(fmt::format("rm -rf chip; {} --readout {} --out chip", fog, readout)).exit_code, 0);
     const Outcome checked = shell("make -C chip icarus driver");
@@ -309,6 +310,60 @@ TEST(ProductFiles, HaveAPointerMemoryOfOnePortIfAskedFor) {
   without.pointer_ports = 1;
   EXPECT_THAT([&] { (void)product_files(without); },
               ThrowsMessage<InputError>("product: --pointer-ports has no effect: SiFH has no pointers"));
+}
+
+/// The lines of a text.
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+// The results are those of the product with an SRAM for each column, in another order.
+TEST(ProductFiles, SeveralColumnsOfTheSensorShareAnSram) {
+  ProductRequest made = request(Readout::kHisPointer);
+  const std::vector<std::string> apart = lines_of(product_files(made).at("vectors/results.hex"));
+  made.columns_per_sram = 3;
+  const auto files = product_files(made);
+  EXPECT_THAT(files.at("rtl/dtof_product.sv"), HasSubstr(".PIXELS_PER_SRAM(18)"));
+  EXPECT_THAT(files.at("rtl/dtof_product.sv"), HasSubstr(".SRAM_NUM(3)"));
+  EXPECT_THAT(files.at("README.md"), HasSubstr("8 x 6 pixels"));
+  EXPECT_THAT(files.at("README.md"), HasSubstr("columns 3 c to 3 c + 2, and its row r is row r mod 6"));
+  EXPECT_THAT(files.at("driver/dtof_product.h"), HasSubstr("#define DTOF_PRODUCT_COLUMNS_PER_SRAM 3\n"));
+  const std::vector<std::string> shared = lines_of(files.at("vectors/results.hex"));
+  ASSERT_EQ(apart.size(), 6U * 8U);
+  ASSERT_EQ(shared.size(), 18U * 3U);
+  for (std::size_t row = 0; row < 18; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      const std::size_t of_sensor = 3 * column + row / 6;
+      if (of_sensor < 8) {
+        EXPECT_EQ(shared[3 * row + column], apart[8 * (row % 6) + of_sensor]) << row << ' ' << column;
+      }
+    }
+  }
+}
+
+TEST(ProductFiles, RefuseColumnsThatCannotShareAnSram) {
+  ProductRequest made = request(Readout::kEzPointer);
+  made.columns_per_sram = 9;
+  EXPECT_THAT(
+      [&] { (void)product_files(made); },
+      ThrowsMessage<InputError>("product: --columns-per-sram is 9, must be 1 to the sensor's 8 columns"));
+  made.columns_per_sram = 0;
+  EXPECT_THROW((void)product_files(made), InputError);
+  made.columns_per_sram = 8;
+  made.sensor.rows = 513;
+  EXPECT_THAT([&] { (void)product_files(made); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("product: 1 x 4104 pixels of 2 slots; dtof_subsystem has at most")));
+  ProductRequest pool = request(Readout::kPoolPointer);
+  pool.columns_per_sram = 2;
+  EXPECT_THAT([&] { (void)product_files(pool); },
+              ThrowsMessage<InputError>(
+                  "product: --columns-per-sram is 2, must be 1: columns of poolPointer help each other"));
 }
 
 TEST(ProductFiles, OfALargeArrayLeaveIcarusVerilogOutOfMake) {

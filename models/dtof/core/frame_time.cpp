@@ -258,6 +258,17 @@ FrameFit frame_fit(const ReadoutParameters& parameters, int rows, int columns, s
       break;
     }
   }
+  if (is_pool_readout(parameters.readout)) {
+    ReadoutParameters other = parameters;
+    for (int width = (std::min(parameters.pool.engine_columns, columns + 1) - 1) / 2 * 2; width >= 2;
+         width -= 2) {
+      other.pool.engine_columns = width;
+      if (predicted_frame_clocks(other, rows, columns, acquisitions) <= most) {
+        ways.push_back(fmt::format("ENGINE_COLUMNS = {}", width));
+        break;
+      }
+    }
+  }
   for (int parts = 2; parts <= rows; ++parts) {
     const int fewer = (rows + parts - 1) / parts;
     if (clocks(fewer, acquisitions, parameters.slots) <= most) {

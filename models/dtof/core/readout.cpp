@@ -60,11 +60,11 @@ constexpr std::array<Description, kAllReadouts.size()> kDescriptions = {{
     {"poolpointer", "poolPointer",
      "neighbours in two dimensions share coarse histograms; each pixel picks and refines a candidate",
      false, true, false, true,
-     {"COUNT_WIDTH", "CELL_SHIFT"}},
+     {"COUNT_WIDTH", "CELL_SHIFT", "GROUP_SIZE", "LABELS", "SCORE_BITS", "ENGINE_COLUMNS"}},
     {"poolpointer-lean", "poolPointer lean",
      "poolPointer in half the memory: larger groups, shorter words",
      false, true, false, true,
-     {"COUNT_WIDTH", "CELL_SHIFT"}},
+     {"COUNT_WIDTH", "CELL_SHIFT", "GROUP_SIZE", "LABELS", "SCORE_BITS", "ENGINE_COLUMNS"}},
 }};
 
 const Description& description(Readout readout) { return kDescriptions[static_cast<std::size_t>(readout)]; }

@@ -8,13 +8,19 @@
 
 namespace dtof {
 
+/// Most rows of dtof_subsystem's results, which number a pixel of an SRAM in 12 bits, and most lines of an
+/// acquisition (rows times SLOTS).
+inline constexpr int kMostSubsystemRows = 4096;
+inline constexpr int kMostSubsystemLines = 65530;
+
 /// A read-out's array for a sensor, or several equal arrays side by side.
 struct ArrayChoice {
   ReadoutParameters parameters;
-  int rows = kArrayRows;  ///< PIXELS_PER_SRAM
-  int columns = 200;      ///< SRAM_NUM, columns of each array
+  int rows = kArrayRows;  ///< PIXELS_PER_SRAM: the sensor's rows times `columns_per_sram`
+  int columns = 200;      ///< SRAM_NUM of each array
   int arrays = 1;
-  int pointer_ports = 2;  ///< POINTER_PORTS
+  int pointer_ports = 2;     ///< POINTER_PORTS
+  int columns_per_sram = 1;  ///< columns of the sensor that share an SRAM, one after the other (FoldedSource)
 
   /// Columns that share a memory: 1, or for a pool read-out 4 (2 if ENGINE_COLUMNS is 2), at most `columns`.
   [[nodiscard]] int module_columns() const;

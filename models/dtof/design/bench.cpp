@@ -196,23 +196,32 @@ std::vector<int> bench_columns(const SensorModel& sensor, double pixels) {
   return {columns.begin(), columns.end()};
 }
 
+std::vector<ReadoutParameters> distinct_readouts(std::span<const ReadoutParameters> readouts) {
+  std::vector<ReadoutParameters> distinct;
+  for (const ReadoutParameters& one : readouts) {
+    if (std::ranges::find(distinct, one) == distinct.end()) {
+      distinct.push_back(one);
+    }
+  }
+  return distinct;
+}
+
 std::vector<ReadoutScore> run_bench(const BenchSettings& settings,
                                     std::span<const ReadoutParameters> readouts, const BenchEffort& effort,
                                     Progress* progress) {
-  std::map<int, std::vector<std::size_t>> by_slots;
-  for (std::size_t r = 0; r < readouts.size(); ++r) {
-    by_slots[readouts[r].slots].push_back(r);
+  std::map<int, std::vector<ReadoutParameters>> by_slots;
+  for (const ReadoutParameters& one : distinct_readouts(readouts)) {
+    by_slots[one.slots].push_back(one);
   }
-  std::vector<ReadoutScore> scores(readouts.size());
-  for (const auto& [slots, places] : by_slots) {
-    std::vector<ReadoutParameters> together;
-    for (const std::size_t place : places) {
-      together.push_back(readouts[place]);
-    }
-    std::vector<ReadoutScore> found = SlotsBench(settings, together, effort, progress).run();
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      scores[places[i]] = std::move(found[i]);
-    }
+  std::map<int, std::vector<ReadoutScore>> found;
+  for (const auto& [slots, together] : by_slots) {
+    found[slots] = SlotsBench(settings, together, effort, progress).run();
+  }
+  std::vector<ReadoutScore> scores;
+  for (const ReadoutParameters& one : readouts) {
+    const std::vector<ReadoutParameters>& together = by_slots[one.slots];
+    scores.push_back(
+        found[one.slots][static_cast<std::size_t>(std::ranges::find(together, one) - together.begin())]);
   }
   return scores;
 }

@@ -64,9 +64,12 @@ struct BenchEffort {
 /// together; all columns if the array has no more.
 std::vector<int> bench_columns(const SensorModel& sensor, double pixels);
 
-/// Returns the score of every read-out. Read-outs with equal SLOTS get the same photons. The models read the
-/// exact photon source and use look-up tables from flat targets. Intervals need at least two frames; with one
-/// frame they assume independent pixels.
+/// Returns the read-outs without repetitions, in order.
+std::vector<ReadoutParameters> distinct_readouts(std::span<const ReadoutParameters> readouts);
+
+/// Returns the score of every read-out; equal ones are read once. Read-outs with equal SLOTS get the same
+/// photons. The models read the exact photon source and use look-up tables from flat targets. Intervals need
+/// at least two frames; with one frame they assume independent pixels.
 std::vector<ReadoutScore> run_bench(const BenchSettings& settings,
                                     std::span<const ReadoutParameters> readouts, const BenchEffort& effort,
                                     Progress* progress = nullptr);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 #include <span>
 
 #include "dtof/core/error.hpp"
@@ -41,12 +42,33 @@ void vary(std::vector<ReadoutParameters>& sets, std::span<const int> values, con
   sets = std::move(varied);
 }
 
+/// The read-out's own engine, half of it, and engines that halve the array or serve the whole array.
+std::vector<int> engine_widths(const ReadoutParameters& base, const SensorModel& sensor) {
+  const auto even = [](int columns) { return (columns + 1) / 2 * 2; };
+  const int own = base.pool.engine_columns;
+  std::set<int> widths = {even(own / 2), own};
+  for (const int width : {even((sensor.columns + 1) / 2), even(sensor.columns)}) {
+    if (width > own) {
+      widths.insert(width);
+    }
+  }
+  return {widths.begin(), widths.end()};
+}
+
 std::vector<ReadoutParameters> searched_of(Readout readout, const SensorModel& sensor) {
   std::vector<ReadoutParameters> sets = {default_parameters(readout, sensor)};
   const ReadoutParameters base = sets.front();
   if (is_pool_readout(readout)) {
+    std::vector<ReadoutParameters> groups = sets;
     vary(sets, std::vector<int>{8, 9, 10}, [](auto& p, int value) { p.pool.cell_shift = value; });
     vary(sets, std::vector<int>{6, 7, 8}, [](auto& p, int value) { p.count_width = value; });
+    const PoolPointerParameters& pool = base.pool;
+    vary(groups, std::vector<int>{pool.labels - 1, pool.labels + 1},
+         [](auto& p, int value) { p.pool.labels = value; });
+    vary(groups, std::vector<int>{pool.group_size, 2 * pool.group_size},
+         [](auto& p, int value) { p.pool.group_size = value; });
+    sets.insert(sets.end(), groups.begin(), groups.end());
+    vary(sets, engine_widths(base, sensor), [](auto& p, int value) { p.pool.engine_columns = value; });
   }
   if (!is_pool_readout(readout) && has_parameter(readout, "NB")) {
     vary(sets, std::vector<int>{base.nb - 1, base.nb, base.nb + 1}, [](auto& p, int value) { p.nb = value; });
@@ -67,6 +89,21 @@ std::vector<ReadoutParameters> searched_of(Readout readout, const SensorModel& s
   vary(sets, slots, [](auto& p, int value) { p.slots = value; });
   std::erase_if(sets, [](const ReadoutParameters& p) { return !is_legal(p); });
   return sets;
+}
+
+int pointer_ports_of(const ReadoutParameters& parameters) {
+  return is_pointer_readout(parameters.readout) && parameters.slots > 1 ? 1 : 2;
+}
+
+/// The array, cut where it is too slow.
+ArrayChoice fast_enough(ArrayChoice array, double clock_hz) {
+  const int widest = EstimateCoefficients::built_in().of(array.parameters.readout).reference.columns;
+  const int whole = array.columns;
+  while (estimate_cost(array).fmax_mhz < clock_hz * kMegahertz && array.columns > widest) {
+    ++array.arrays;
+    array.columns = (whole + array.arrays - 1) / array.arrays;
+  }
+  return array;
 }
 
 }  // namespace
@@ -92,17 +129,43 @@ std::vector<ReadoutParameters> searched_parameters(const SensorModel& sensor) {
   return found;
 }
 
-ArrayChoice array_for(const ReadoutParameters& parameters, const SensorModel& sensor, double clock_hz) {
-  ArrayChoice array{.parameters = parameters, .rows = sensor.rows, .columns = sensor.columns};
-  if (is_pointer_readout(parameters.readout) && parameters.slots > 1) {
-    array.pointer_ports = 1;
+std::vector<ArrayChoice> arrays_for(const ReadoutParameters& parameters, const SensorModel& sensor,
+                                    double clock_hz) {
+  std::vector<ArrayChoice> arrays;
+  for (const int columns_per_sram : {1, 2, 3, 4, 6, 8, 12, 16}) {
+    const int rows = sensor.rows * columns_per_sram;
+    if (columns_per_sram > 1 &&
+        (is_pool_readout(parameters.readout) || columns_per_sram > sensor.columns ||
+         rows > kMostSubsystemRows || rows * parameters.slots > kMostSubsystemLines)) {
+      break;
+    }
+    try {
+      arrays.push_back(fast_enough({.parameters = parameters,
+                                    .rows = rows,
+                                    .columns = (sensor.columns + columns_per_sram - 1) / columns_per_sram,
+                                    .pointer_ports = pointer_ports_of(parameters),
+                                    .columns_per_sram = columns_per_sram},
+                                   clock_hz));
+    } catch (const InputError&) {
+      break;  // a memory that cannot be made, nor any larger one
+    }
   }
-  const int widest = EstimateCoefficients::built_in().of(parameters.readout).reference.columns;
-  while (array.columns > widest && estimate_cost(array).fmax_mhz < clock_hz * kMegahertz) {
-    ++array.arrays;
-    array.columns = (sensor.columns + array.arrays - 1) / array.arrays;
+  return arrays;
+}
+
+std::vector<DesignCandidate> all_candidates(const SensorModel& sensor, double clock_hz,
+                                            const std::map<int, double>& slots_taken) {
+  std::vector<DesignCandidate> candidates;
+  for (const ReadoutParameters& parameters : searched_parameters(sensor)) {
+    for (const ArrayChoice& array : arrays_for(parameters, sensor, clock_hz)) {
+      candidates.push_back(
+          {.array = array,
+           .cost = estimate_cost(array),
+           .slots_taken = slots_taken.at(parameters.slots),
+           .clocks = predicted_frame_clocks(parameters, array.rows, array.columns, sensor.acquisitions)});
+    }
   }
-  return array;
+  return candidates;
 }
 
 SensorModel with_slots(SensorModel sensor, int slots) {
@@ -121,7 +184,10 @@ std::string command_options(const ReadoutParameters& parameters, const SensorMod
   add("--nb", parameters.nb, base.nb);
   add("--count-width", parameters.count_width, base.count_width);
   add("--fraction-bits", parameters.fraction_bits, base.fraction_bits);
+  add("--group-size", parameters.pool.group_size, base.pool.group_size);
+  add("--labels", parameters.pool.labels, base.pool.labels);
   add("--cell-shift", parameters.pool.cell_shift, base.pool.cell_shift);
+  add("--engine-columns", parameters.pool.engine_columns, base.pool.engine_columns);
   add("--slots", parameters.slots, base.slots);
   if (parameters.window_centred && !base.window_centred) {
     text += " --window-centred";
@@ -130,10 +196,15 @@ std::string command_options(const ReadoutParameters& parameters, const SensorMod
 }
 
 std::string product_options(const ArrayChoice& array, const SensorModel& sensor) {
-  const std::string options = command_options(array.parameters, sensor);
-  return array.pointer_ports == ArrayChoice().pointer_ports
-             ? options
-             : fmt::format("{} --pointer-ports {}", options, array.pointer_ports);
+  const ArrayChoice usual;
+  std::string options = command_options(array.parameters, sensor);
+  if (array.pointer_ports != usual.pointer_ports) {
+    options += fmt::format(" --pointer-ports {}", array.pointer_ports);
+  }
+  if (array.columns_per_sram != usual.columns_per_sram) {
+    options += fmt::format(" --columns-per-sram {}", array.columns_per_sram);
+  }
+  return options;
 }
 
 }  // namespace dtof

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -45,14 +46,24 @@ struct LimitsKept {
 };
 LimitsKept limits_kept(const DesignCandidate& candidate, const DesignLimits& limits);
 
-/// Returns every legal combination of the searched parameters, for read-outs that have RTL. Searched are NB,
-/// COUNT_WIDTH, FRACTION_BITS, WINDOW_CENTRED and CELL_SHIFT around default_parameters, and SLOTS.
+/// Returns legal sets of the searched parameters, for read-outs that have RTL: every combination of NB,
+/// COUNT_WIDTH, FRACTION_BITS, WINDOW_CENTRED, CELL_SHIFT and ENGINE_COLUMNS around default_parameters, and
+/// of SLOTS; and with the default COUNT_WIDTH and CELL_SHIFT every combination of LABELS and GROUP_SIZE.
 std::vector<ReadoutParameters> searched_parameters(const SensorModel& sensor);
 
-/// Returns one array for the sensor or, if that is too slow for the clock, the fewest arrays side by side
-/// that are fast enough. Pointers are in memories of one port, which are smaller, if SLOTS is at least 2.
-/// Arrays as narrow as the synthesised array on which the estimates rest are not split further.
-ArrayChoice array_for(const ReadoutParameters& parameters, const SensorModel& sensor, double clock_hz);
+/// Returns the arrays for the sensor that give the same results at different costs: 1, 2, 3, 4, 6, 8, 12 or
+/// 16 columns of the sensor for each SRAM, as far as dtof_subsystem can number the pixels of an SRAM; for a
+/// pool read-out 1 alone, because its columns help each other. Pointers are in memories of one port, which
+/// are smaller, if SLOTS is at least 2. An array that is too slow for the clock is cut into the fewest equal
+/// arrays side by side that are fast enough; arrays as narrow as the synthesised array on which the estimates
+/// rest are not cut further. Leaves out arrays with a memory that cannot be made.
+std::vector<ArrayChoice> arrays_for(const ReadoutParameters& parameters, const SensorModel& sensor,
+                                    double clock_hz);
+
+/// Returns all candidates for the sensor. `slots_taken`: share of the slots that hold a detection, for each
+/// number of SLOTS from 1 to the sensor's.
+std::vector<DesignCandidate> all_candidates(const SensorModel& sensor, double clock_hz,
+                                            const std::map<int, double>& slots_taken);
 
 /// Copy of the sensor with this number of slots.
 SensorModel with_slots(SensorModel sensor, int slots);

@@ -39,8 +39,10 @@ FamilySlopes read_slopes(const Part& part) {
           .confidence_width = part.number("CONFIDENCE_WIDTH"),
           .pointer_ports = part.number("POINTER_PORTS"),
           .time_gate = part.number("TIME_GATE"),
+          .labels = part.number("LABELS"),
           .pixels = part.number("PIXELS"),
-          .control_um2_a_column = part.number("control_um2_a_column")};
+          .control_um2_a_column = part.number("control_um2_a_column"),
+          .engine_um2_a_label = part.number("engine_um2_a_label")};
 }
 
 PowerParts read_power(const Part& part) {
@@ -67,6 +69,7 @@ ArrayChoice read_reference(Readout readout, const Part& part) {
   set("POINTER_PORTS", array.pointer_ports);
   set("PIXELS_PER_SRAM", array.rows);
   set("SRAM_NUM", array.columns);
+  set("LABELS", array.parameters.pool.labels);
   set("ENGINE_COLUMNS", array.parameters.pool.engine_columns);
   return array;
 }

@@ -44,8 +44,10 @@ struct FamilySlopes {
   double confidence_width = 0.0;
   double pointer_ports = 0.0;
   double time_gate = 0.0;
+  double labels = 0.0;
   double pixels = 0.0;  ///< per doubling of the array's pixels
   double control_um2_a_column = 0.0;
+  double engine_um2_a_label = 0.0;  ///< of an engine, per candidate (LABELS)
 };
 
 /// Relative errors of estimates for configurations that were not used in the fit.

@@ -20,71 +20,54 @@
 namespace dtof {
 namespace {
 
-/// None if the array needs a memory that cannot be made.
-std::optional<DesignCandidate> estimated_one(const DesignRequest& request,
-                                             const ReadoutParameters& parameters, double slots_taken) {
-  const SensorModel& sensor = request.bench.sensor;
-  try {
-    DesignCandidate candidate{.array = array_for(parameters, sensor, request.limits.budget.clock_hz),
-                              .cost = {},
-                              .slots_taken = slots_taken,
-                              .clocks = 0};
-    candidate.clocks = predicted_frame_clocks(parameters, candidate.array.rows, candidate.array.columns,
-                                              sensor.acquisitions);
-    candidate.cost = estimate_cost(candidate.array);
-    return candidate;
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
 std::vector<DesignCandidate> estimated(const DesignRequest& request) {
   const BenchSettings& bench = request.bench;
   const double brightest = std::ranges::max(bench.klux);
   std::map<int, double> slots_taken;
-  std::vector<DesignCandidate> candidates;
-  for (const ReadoutParameters& parameters : searched_parameters(bench.sensor)) {
-    auto known = slots_taken.find(parameters.slots);
-    if (known == slots_taken.end()) {
-      const SensorModel sensor = with_slots(bench.sensor, parameters.slots);
-      double sum = 0.0;
-      for (const Scene scene : bench.scenes) {
-        sum += slot_rate(sensor, scaled_scene(scene, sensor, bench.seed), brightest);
-      }
-      known = slots_taken.emplace(parameters.slots, sum / static_cast<double>(bench.scenes.size())).first;
-    }
-    if (const auto candidate = estimated_one(request, parameters, known->second)) {
-      candidates.push_back(*candidate);
+  for (int slots = 1; slots <= bench.sensor.slots; ++slots) {
+    const SensorModel sensor = with_slots(bench.sensor, slots);
+    for (const Scene scene : bench.scenes) {
+      slots_taken[slots] += slot_rate(sensor, scaled_scene(scene, sensor, bench.seed), brightest) /
+                            static_cast<double>(bench.scenes.size());
     }
   }
-  return candidates;
+  return all_candidates(bench.sensor, request.limits.budget.clock_hz, slots_taken);
 }
 
-/// Within the limits, and with as many SLOTS as are: fewer see less light.
+/// True for candidates of the same parameters if `one` sees more light than `other`, or costs less area for
+/// as much.
+bool better_choice(const DesignCandidate& one, const DesignCandidate& other) {
+  const int slots = one.array.parameters.slots - other.array.parameters.slots;
+  return slots != 0 ? slots > 0 : one.cost.mm2 < other.cost.mm2;
+}
+
+/// Within the limits. Of candidates that differ in SLOTS, ENGINE_COLUMNS and columns for each SRAM alone,
+/// those with most SLOTS, for fewer see less light; then the smallest array.
 std::set<std::size_t> worth_reading(std::span<const DesignCandidate> candidates, const DesignLimits& limits) {
-  std::map<std::string, std::size_t> most_slots;
+  std::map<std::string, std::size_t> best;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!limits_kept(candidates[i], limits).all()) {
       continue;
     }
     ReadoutParameters parameters = candidates[i].array.parameters;
     parameters.slots = 0;
-    const auto [place, is_new] = most_slots.emplace(parameters.to_string(), i);
-    if (!is_new && candidates[i].array.parameters.slots > candidates[place->second].array.parameters.slots) {
+    parameters.pool.engine_columns = 0;
+    const auto [place, is_new] = best.emplace(parameters.to_string(), i);
+    if (!is_new && better_choice(candidates[i], candidates[place->second])) {
       place->second = i;
     }
   }
   std::set<std::size_t> found;
-  for (const auto& [parameters, i] : most_slots) {
+  for (const auto& [parameters, i] : best) {
     found.insert(i);
   }
   return found;
 }
 
-/// Pixels that a frame of each may have.
-double pixels_of(double work, std::size_t readouts, const DesignRequest& request, int frames) {
+/// Pixels that a frame of each of these read-outs or rivals may have.
+double pixels_of(double work, std::size_t number, const DesignRequest& request, int frames) {
   const BenchSettings& bench = request.bench;
-  return work / bench.sensor.acquisitions / static_cast<double>(readouts) /
+  return work / bench.sensor.acquisitions / static_cast<double>(number) /
          static_cast<double>(bench.klux.size() * bench.scenes.size()) / frames;
 }
 
@@ -106,6 +89,11 @@ std::vector<ReadoutParameters> parameters_of(const std::vector<DesignOption>& op
   return parameters;
 }
 
+/// Options with the same parameters are read once.
+std::size_t number_of(const std::vector<DesignOption>& options, const std::vector<std::size_t>& places) {
+  return distinct_readouts(parameters_of(options, places)).size();
+}
+
 std::unique_ptr<Progress> make_progress(const DesignRequest& request, const std::string& title,
                                         std::size_t total) {
   if (!request.observer) {
@@ -121,11 +109,12 @@ std::vector<ReadoutScore> read(const DesignRequest& request, const std::vector<D
                                const std::string& title) {
   const BenchSettings& bench = request.bench;
   const std::size_t lights = bench.klux.size();
+  const std::vector<ReadoutParameters> parameters = parameters_of(options, places);
   const auto progress = make_progress(
       request, title,
-      places.size() * lights *
+      distinct_readouts(parameters).size() * lights *
           (bench.scenes.size() * static_cast<std::size_t>(effort.frames) + (effort.detection ? 2 : 0)));
-  return run_bench(bench, parameters_of(options, places), effort, progress.get());
+  return run_bench(bench, parameters, effort, progress.get());
 }
 
 /// The scores of several frames, but P_d and P_fa as they were.
@@ -149,8 +138,8 @@ void hold_contest(const DesignRequest& request, BenchEffort effort, DesignResult
     constexpr double kLeastWork = 1e5;
     const double pixels = std::max(static_cast<double>(result.options[left.front()].best_known().pixels),
                                    kLeastWork / std::max(request.bench.sensor.acquisitions, 1U));
-    const double most =
-        pixels_of(work, left.size(), request, 1) * static_cast<double>(request.bench.scenes.size()) / pixels;
+    const double most = pixels_of(work, number_of(result.options, left), request, 1) *
+                        static_cast<double>(request.bench.scenes.size()) / pixels;
     const int frames = std::min(kMoreFrames * effort.frames, static_cast<int>(most));
     if (frames <= effort.frames) {
       break;
@@ -282,7 +271,8 @@ DesignResult run_design(const DesignRequest& request) {
   }
   std::vector<ReadoutScore> screened =
       read(request, result.options, all,
-           {.pixels = pixels_of(request.screening_work, all.size(), request, 1)}, "parameters");
+           {.pixels = pixels_of(request.screening_work, number_of(result.options, all), request, 1)},
+           "parameters");
   for (std::size_t i = 0; i < all.size(); ++i) {
     result.options[i].screened = std::move(screened[i]);
   }
@@ -296,9 +286,10 @@ DesignResult run_design(const DesignRequest& request) {
     }
   }
   const std::vector<std::size_t> best(chosen.begin(), chosen.end());
-  const BenchEffort effort{.pixels = pixels_of(request.final_work, best.size(), request, result.frames),
-                           .frames = result.frames,
-                           .detection = request.detection};
+  const BenchEffort effort{
+      .pixels = pixels_of(request.final_work, number_of(result.options, best), request, result.frames),
+      .frames = result.frames,
+      .detection = request.detection};
   std::vector<ReadoutScore> scores = read(request, result.options, best, effort, "read-outs");
   for (std::size_t i = 0; i < best.size(); ++i) {
     result.options[best[i]].score = std::move(scores[i]);

@@ -68,10 +68,10 @@ struct DesignResult {
 std::vector<const RivalOption*> more_accurate_rivals(const DesignResult& result);
 
 /// Estimates the cost of every candidate. Reads out those that meet the limits, also after one limit is
-/// loosened by 10 %; of candidates that differ in SLOTS alone, only the one with most. Compares the best
-/// option of each read-out, and the contenders in more frames until these settle the choice or the budget is
-/// spent. Throws InputError, with one line that says what would be needed, if no read-out
-/// meets the limits.
+/// loosened by 10 %. Of candidates that differ in SLOTS, ENGINE_COLUMNS and columns for each SRAM alone,
+/// reads one: with most SLOTS, then with the smallest array. Compares the best option of each read-out, and
+/// the contenders in more frames until these settle the choice or the budget is spent. Throws InputError,
+/// with one line that says what would be needed, if no read-out meets the limits.
 DesignResult run_design(const DesignRequest& request);
 
 }  // namespace dtof

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kLeastColumnShare = 0.3;  // of the reference's column
 constexpr double kLeastControlShare = 0.1;
+constexpr double kAfterAccessNs = 0.35;  // from an SRAM's data to a register, with setup and uncertainty
 
 double column_um2(const ArrayChoice& array, const ReadoutCoefficients& of, const FamilySlopes& slopes) {
   const ReadoutParameters& p = array.parameters;
@@ -24,7 +25,9 @@ double column_um2(const ArrayChoice& array, const ReadoutCoefficients& of, const
                 slopes.time_gate * (p.time_gate ? 1.0 : 0.0) +
                 slopes.pixels * std::log2(static_cast<double>(array.rows) * array.columns /
                                           of.reference.rows / of.reference.columns);
-  if (!pool) {
+  if (pool) {
+    area += slopes.labels * (p.pool.labels - base.pool.labels);
+  } else {
     area += slopes.nb * (p.nb - base.nb) + slopes.fraction_bits * (p.fraction_bits - base.fraction_bits) +
             slopes.confidence_width * (p.confidence_width - base.confidence_width) +
             slopes.pointer_ports * (array.pointer_ports - of.reference.pointer_ports);
@@ -50,7 +53,8 @@ struct Logic {
     const FamilySlopes& slopes = coefficients.slopes(array.parameters.readout);
     column = column_um2(array, of, slopes);
     control = control_um2(array, of, slopes);
-    engines = array.engines() * of.engine_um2;
+    const int labels = array.parameters.pool.labels - of.reference.parameters.pool.labels;
+    engines = array.engines() * (of.engine_um2 + slopes.engine_um2_a_label * labels);
     whole = column * array.columns + control + engines;
     clocked = of.column_um2 * array.columns + control + engines;
   }
@@ -89,6 +93,17 @@ double taken_slots(double events, int slots) {
   return 1.0 - missing / slots;
 }
 
+/// Shortest period that the SRAMs allow in the slow corner, ns.
+double sram_period_ns(const ArrayChoice& array) {
+  double access_ns = 0.0;
+  for (const std::vector<MacroSize>& sizes : {column_memories(array), engine_memories(array)}) {
+    for (const MacroSize& size : sizes) {
+      access_ns = std::max(access_ns, sram_macro(size).access_slow_ns);
+    }
+  }
+  return access_ns + kAfterAccessNs;
+}
+
 double between(double dusk, double day, double share) { return std::max(dusk + share * (day - dusk), 0.0); }
 
 }  // namespace
@@ -98,7 +113,8 @@ CostEstimate estimate_cost(const ArrayChoice& array, const EstimateCoefficients&
   constexpr double kMegahertz = 1e3;  // 1 / ns
   const int beyond = std::max(array.columns - of.reference.columns, 0);
   return {.mm2 = array.arrays * (Logic(array, coefficients).whole + Memories(array).area_um2) * 1e-6,
-          .fmax_mhz = kMegahertz / (kMegahertz / of.fmax_mhz + beyond * coefficients.period_slope_ns),
+          .fmax_mhz = kMegahertz / std::max(kMegahertz / of.fmax_mhz + beyond * coefficients.period_slope_ns,
+                                            sram_period_ns(array)),
           .bits_per_pixel = bits_per_pixel(array)};
 }
 

@@ -64,6 +64,27 @@ TEST(FrameFit, SaysWhatWouldFit) {
   EXPECT_TRUE(again(50'000, budget));
 }
 
+// More engines, of fewer columns each, leave more of the frame for acquisitions.
+TEST(FrameFit, SaysHowManyColumnsAnEngineMayHave) {
+  const FrameBudget budget{.clock_hz = 330e6, .frames_per_s = 30.0};
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer);
+  EXPECT_TRUE(frame_fit(parameters, 160, 200, 33'333, budget).fits);
+  parameters.pool.engine_columns = 100;
+  const FrameFit fit = frame_fit(parameters, 160, 200, 33'333, budget);
+  EXPECT_FALSE(fit.fits);
+  const std::size_t at = fit.sentence.find("ENGINE_COLUMNS = ");
+  ASSERT_NE(at, std::string::npos) << fit.sentence;
+  const int columns = std::stoi(fit.sentence.substr(at + 17));
+  const auto fits = [&](int width) {
+    parameters.pool.engine_columns = width;
+    return frame_fit(parameters, 160, 200, 33'333, budget).fits;
+  };
+  EXPECT_TRUE(fits(columns));
+  EXPECT_FALSE(fits(columns + 2));
+  EXPECT_THAT(frame_fit(ReadoutParameters::defaults(Readout::kSifh), 160, 200, 50'000, budget).sentence,
+              testing::Not(HasSubstr("ENGINE_COLUMNS")));
+}
+
 TEST(FrameFit, OffersNoWayThatDoesNotFit) {
   const FrameFit fit = frame_fit(ReadoutParameters::defaults(Readout::kHistogram), 160, 200, 10,
                                  {.clock_hz = 1e6, .frames_per_s = 30.0});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <ranges>
+#include <set>
 
 #include "dtof/core/error.hpp"
 #include "dtof/sensor/default_parameters.hpp"
@@ -15,6 +16,8 @@ namespace dtof {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::ThrowsMessage;
@@ -60,13 +63,20 @@ TEST(Design, OptionsAskForTheParametersThatDiffer) {
   parameters.slots = 1;
   parameters.window_centred = true;
   EXPECT_EQ(command_options(parameters, sensor), "--readout sifh --nb 5 --slots 1 --window-centred");
+  ReadoutParameters pool = default_parameters(Readout::kPoolPointer, sensor);
+  pool.pool.group_size = 8;
+  pool.pool.labels = 4;
+  pool.pool.engine_columns = 100;
+  EXPECT_EQ(command_options(pool, sensor),
+            "--readout poolpointer --group-size 8 --labels 4 --engine-columns 100");
 }
 
 TEST(Design, PointersAreInAMemoryOfOnePortWhereSlotsAllowThat) {
   const SensorModel sensor = parse_preset("thesis");
   const auto chosen = [&](Readout readout, int slots) {
-    return array_for(default_parameters(readout, with_slots(sensor, slots)), with_slots(sensor, slots),
-                     330e6);
+    return arrays_for(default_parameters(readout, with_slots(sensor, slots)), with_slots(sensor, slots),
+                      330e6)
+        .front();
   };
   const ArrayChoice one = chosen(Readout::kEzPointer, 2);
   EXPECT_EQ(one.pointer_ports, 1);
@@ -82,16 +92,77 @@ TEST(Design, PointersAreInAMemoryOfOnePortWhereSlotsAllowThat) {
 TEST(Design, AnArrayThatIsTooWideForTheClockIsCut) {
   SensorModel sensor = parse_preset("thesis");
   const ReadoutParameters parameters = default_parameters(Readout::kSifh, sensor);
-  EXPECT_EQ(array_for(parameters, sensor, 330e6).arrays, 1);
-  const double whole = estimate_cost(array_for(parameters, sensor, 330e6)).mm2;
+  EXPECT_EQ(arrays_for(parameters, sensor, 330e6).front().arrays, 1);
+  const double whole = estimate_cost(arrays_for(parameters, sensor, 330e6).front()).mm2;
   sensor.columns = 600;
-  const ArrayChoice cut = array_for(parameters, sensor, 330e6);
+  const ArrayChoice cut = arrays_for(parameters, sensor, 330e6).front();
   EXPECT_GT(cut.arrays, 1);
   EXPECT_GE(cut.arrays * cut.columns, 600);
   EXPECT_GE(estimate_cost(cut).fmax_mhz, 330.0);
   EXPECT_NEAR(estimate_cost(cut).mm2 / whole, 3.0, 0.05);
-  EXPECT_EQ(array_for(parameters, sensor, 1e6).arrays, 1) << "a slow clock takes any width";
-  EXPECT_EQ(array_for(parameters, sensor, 1e9).columns, 200) << "no array is fast enough";
+  EXPECT_EQ(arrays_for(parameters, sensor, 1e6).front().arrays, 1) << "a slow clock takes any width";
+  EXPECT_EQ(arrays_for(parameters, sensor, 1e9).front().columns, 200) << "no array is fast enough";
+}
+
+TEST(Design, SeveralColumnsShareAnSramWhereTheFrameHasTime) {
+  const SensorModel sensor = parse_preset("thesis");
+  const ReadoutParameters parameters = default_parameters(Readout::kEzPointer, sensor);
+  const std::vector<ArrayChoice> arrays = arrays_for(parameters, sensor, 330e6);
+  ASSERT_EQ(arrays.size(), 8U);
+  EXPECT_EQ(arrays.front().columns_per_sram, 1);
+  for (std::size_t i = 1; i < arrays.size(); ++i) {
+    EXPECT_EQ(arrays[i].rows, 160 * arrays[i].columns_per_sram);
+    EXPECT_EQ(arrays[i].columns, (200 + arrays[i].columns_per_sram - 1) / arrays[i].columns_per_sram);
+    EXPECT_LT(estimate_cost(arrays[i]).mm2, estimate_cost(arrays[i - 1]).mm2);
+  }
+  EXPECT_EQ(product_options(arrays[3], sensor), "--readout ezpointer --pointer-ports 1 --columns-per-sram 4");
+  EXPECT_EQ(arrays_for(default_parameters(Readout::kPoolPointer, sensor), sensor, 330e6).size(), 1U);
+  SensorModel narrow = sensor;
+  narrow.columns = 3;
+  EXPECT_EQ(arrays_for(parameters, narrow, 330e6).size(), 3U);
+  SensorModel tall = sensor;
+  tall.rows = 2000;
+  EXPECT_EQ(arrays_for(parameters, tall, 330e6).size(), 2U) << "dtof_subsystem numbers 4,096 rows";
+}
+
+// An SRAM of 40,960 words is too slow for 330 MHz.
+TEST(Design, AnSramLimitsTheClock) {
+  const SensorModel sensor = parse_preset("thesis");
+  const ReadoutParameters parameters = default_parameters(Readout::kHisPointer, sensor);
+  for (const ArrayChoice& array : arrays_for(parameters, sensor, 1e6)) {
+    const bool is_fast = array.rows << parameters.nb < 40960;
+    EXPECT_EQ(estimate_cost(array).fmax_mhz >= 330.0, is_fast) << array.columns_per_sram;
+  }
+}
+
+// At 30 frames/s 300 acquisitions leave time for one engine, at 6,000 frames/s they do not.
+TEST(Design, AnEngineServesAsManyColumnsAsTheFrameHasTimeFor) {
+  DesignRequest request = quick_design(small_request());
+  request.bench.sensor.columns = 100;
+  const auto widths = [&] {
+    std::set<int> found;
+    for (const DesignOption& option : run_design(request).options) {
+      if (is_pool_readout(option.candidate.readout())) {
+        found.insert(option.candidate.array.parameters.pool.engine_columns);
+      }
+    }
+    return found;
+  };
+  EXPECT_THAT(widths(), ElementsAre(100));
+  request.limits.budget.frames_per_s = 6000.0;
+  EXPECT_THAT(widths(), AllOf(Not(testing::IsEmpty()), Not(Contains(100))));
+}
+
+TEST(Design, OptionsWithEqualParametersAreReadOnce) {
+  const SensorModel sensor = small_request().bench.sensor;
+  const ReadoutParameters one = default_parameters(Readout::kEzPointer, sensor);
+  const ReadoutParameters other = default_parameters(Readout::kSifh, sensor);
+  EXPECT_THAT(distinct_readouts(std::vector{one, other, one}), ElementsAre(one, other));
+  const BenchSettings bench = small_request().bench;
+  const std::vector<ReadoutScore> twice = run_bench(bench, std::vector{one, other, one}, {});
+  ASSERT_EQ(twice.size(), 3U);
+  EXPECT_EQ(twice[0].worst().above_3_percent.value, twice[2].worst().above_3_percent.value);
+  EXPECT_NE(twice[0].worst().above_3_percent.value, twice[1].worst().above_3_percent.value);
 }
 
 TEST(Design, ATighterLimitChangesTheWinner) {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "dtof/core/frame_time.hpp"
-#include "dtof/design/latency.hpp"
+#include "dtof/core/latency.hpp"
 #include "tests/rtl/rtl_test_support.hpp"
 
 namespace dtof {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dtof/design/latency.hpp"
+#include "dtof/core/latency.hpp"
 
 #include <gtest/gtest.h>
 

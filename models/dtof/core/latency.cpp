@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dtof/design/latency.hpp"
+#include "dtof/core/latency.hpp"
 
 #include "dtof/core/frame_time.hpp"
 
 namespace dtof {
 namespace {
-
-std::uint64_t u(std::int64_t value) { return static_cast<std::uint64_t>(value); }
 
 /// The read-out of one measurement whose results are found and sent as those of `parameters`.
 ReadoutParameters last_measurement(const ReadoutParameters& parameters) {
@@ -31,7 +29,9 @@ std::uint64_t array_latency(const ReadoutParameters& parameters, int rows, int c
   const ReadoutParameters alone = last_measurement(parameters);
   constexpr std::uint64_t kSignalledClear = 3;  // start_i to the end of a clear that is signalled
   constexpr std::uint64_t kAroundClear = 4;     // beside one clock for each word of ezPointer
-  const std::uint64_t start = alone.readout == Readout::kEzPointer ? u(rows) + kAroundClear : kSignalledClear;
+  const std::uint64_t start = alone.readout == Readout::kEzPointer
+                                  ? static_cast<std::uint64_t>(rows) + kAroundClear
+                                  : kSignalledClear;
   return predicted_frame_clocks(alone, rows, columns, 0, true) - start;
 }
 
@@ -43,8 +43,8 @@ std::uint64_t pool_latency(const ReadoutParameters& parameters, int rows, int co
   const bool wide = parameters.pool.bin_halves(parameters.count_width) == 2;
   const int together = wide ? 8 : 4;
   const int filling = (together - rows % together) % together;
-  return u(filling * parameters.slots + kPassEnd + (wide ? kWidePass : 0) + kOperationEnd) +
-         u(pool_decide_clocks(rows, columns, parameters.pool.engine_columns));
+  const int pass = filling * parameters.slots + kPassEnd + (wide ? kWidePass : 0) + kOperationEnd;
+  return static_cast<std::uint64_t>(pass + pool_decide_clocks(rows, columns, parameters.pool.engine_columns));
 }
 
 }  // namespace
