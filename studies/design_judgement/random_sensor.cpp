@@ -143,8 +143,9 @@ std::vector<DesignCandidate> kept_of(const std::vector<DesignCandidate>& grid, c
 std::vector<DesignCandidate> smallest_of_each(const std::vector<DesignCandidate>& candidates) {
   std::vector<DesignCandidate> smallest;
   for (const DesignCandidate& one : candidates) {
-    const auto found = std::ranges::find(smallest, one.array.parameters,
-                                         [](const DesignCandidate& c) { return c.array.parameters; });
+    const auto found =
+        std::ranges::find(smallest, compared_parameters(one.array.parameters),
+                          [](const DesignCandidate& c) { return compared_parameters(c.array.parameters); });
     if (found == smallest.end()) {
       smallest.push_back(one);
     } else if (one.cost.mm2 < found->cost.mm2) {

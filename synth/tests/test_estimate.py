@@ -53,6 +53,25 @@ class Estimate(unittest.TestCase):
         self.assertAlmostEqual(model.control_slopes["pool"], 50.0, places=6)
         self.assertAlmostEqual(model.references["poolpointer"].engine, 5000.0, places=3)
 
+    def test_candidates_cost_area_in_columns_and_in_engines(self):
+        base = point("fewer", "poolpointer", 1800.0, "fitted", power=False, SRAM_NUM=68)
+        more = point("more", "poolpointer", 1900.0, "fitted", power=False, SRAM_NUM=68, LABELS=6)
+        more = replace(more, engines=more.configuration.engines * 5700.0,
+                       shared=50.0 * 68 + more.configuration.engines * 5700.0)
+        model = estimate.fit([*points(), base, more], [])
+        self.assertAlmostEqual(model.engine_um2_a_label, 700.0, places=3)
+        self.assertAlmostEqual(model.slopes["pool"][estimate.FEATURES.index("LABELS")], 100.0, delta=10.0)
+        self.assertAlmostEqual(model.engine_um2(more.configuration), 5700.0, places=3)
+
+    def test_an_sram_that_is_slower_than_the_logic_limits_the_clock(self):
+        model = estimate.fit(points(), [])
+        base = points()[0].configuration
+        self.assertEqual(model.fmax_mhz(base), 350.0)
+        larger = base.with_parameters("larger", PIXELS_PER_SRAM=2560)
+        access = max(estimate.sram_model.macro(size).access_slow for size in configuration.memories(larger).values())
+        self.assertAlmostEqual(model.fmax_mhz(larger), 1e3 / (access + estimate.AFTER_ACCESS_NS))
+        self.assertLess(model.fmax_mhz(larger), 300.0)
+
     def test_a_step_of_the_sweeps_is_followed(self):
         base = points()[0].configuration
         steps = [estimate.Step(base.with_parameters("np", NP=12), base, 80.0)] * 5

@@ -129,6 +129,12 @@ std::vector<ReadoutParameters> searched_parameters(const SensorModel& sensor) {
   return found;
 }
 
+ReadoutParameters compared_parameters(ReadoutParameters parameters) {
+  const int own = ReadoutParameters::defaults(parameters.readout, parameters.np).pool.engine_columns;
+  parameters.pool.engine_columns = std::min(parameters.pool.engine_columns, own);
+  return parameters;
+}
+
 std::vector<ArrayChoice> arrays_for(const ReadoutParameters& parameters, const SensorModel& sensor,
                                     double clock_hz) {
   std::vector<ArrayChoice> arrays;

@@ -51,6 +51,11 @@ LimitsKept limits_kept(const DesignCandidate& candidate, const DesignLimits& lim
 /// of SLOTS; and with the default COUNT_WIDTH and CELL_SHIFT every combination of LABELS and GROUP_SIZE.
 std::vector<ReadoutParameters> searched_parameters(const SensorModel& sensor);
 
+/// Returns the parameters with which the models compare a candidate: an engine of at most as many columns as
+/// the read-out's own, because a model reads whole engines. A wider engine has fewer borders, where pixels
+/// lack neighbours, so that its errors are not larger.
+ReadoutParameters compared_parameters(ReadoutParameters parameters);
+
 /// Returns the arrays for the sensor that give the same results at different costs: 1, 2, 3, 4, 6, 8, 12 or
 /// 16 columns of the sensor for each SRAM, as far as dtof_subsystem can number the pixels of an SRAM; for a
 /// pool read-out 1 alone, because its columns help each other. Pointers are in memories of one port, which

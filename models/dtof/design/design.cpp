@@ -84,7 +84,7 @@ std::vector<ReadoutParameters> parameters_of(const std::vector<DesignOption>& op
                                              const std::vector<std::size_t>& places) {
   std::vector<ReadoutParameters> parameters;
   for (const std::size_t place : places) {
-    parameters.push_back(options[place].candidate.array.parameters);
+    parameters.push_back(compared_parameters(options[place].candidate.array.parameters));
   }
   return parameters;
 }

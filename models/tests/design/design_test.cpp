@@ -153,6 +153,26 @@ TEST(Design, AnEngineServesAsManyColumnsAsTheFrameHasTimeFor) {
   EXPECT_THAT(widths(), AllOf(Not(testing::IsEmpty()), Not(Contains(100))));
 }
 
+// Candidates are compared with the read-out's own engine, as if a wider one were no worse.
+TEST(Design, AWiderEngineHasNoMoreErrors) {
+  SensorModel sensor = small_request().bench.sensor;
+  sensor.columns = 102;
+  sensor.rows = 32;
+  const ReadoutParameters own = default_parameters(Readout::kPoolPointer, sensor);
+  ReadoutParameters wide = own;
+  wide.pool.engine_columns = 102;
+  ReadoutParameters narrow = own;
+  narrow.pool.engine_columns = 16;
+  EXPECT_EQ(compared_parameters(wide), own);
+  EXPECT_EQ(compared_parameters(narrow), narrow);
+  const std::vector<ReadoutScore> scores =
+      run_bench({.sensor = sensor, .klux = {50.0}}, std::vector{own, wide}, {.frames = 8});
+  const Estimate& of_own = scores[0].worst().above_3_percent;
+  const Estimate& of_wide = scores[1].worst().above_3_percent;
+  EXPECT_GT(of_own.value, 0.01);
+  EXPECT_LE(of_wide.value, of_own.value);
+}
+
 TEST(Design, OptionsWithEqualParametersAreReadOnce) {
   const SensorModel sensor = small_request().bench.sensor;
   const ReadoutParameters one = default_parameters(Readout::kEzPointer, sensor);
