@@ -35,6 +35,11 @@ class Sensor:
     name: str  # preset, or file in examples/sensors
     what: str
     readout: str  # as `dtof product --readout`
+    options: tuple[str, ...] = ()  # of `dtof product`
+
+    @property
+    def choice(self) -> str:
+        return " ".join([self.readout, *self.options])
 
     @property
     def given(self) -> str:
@@ -46,8 +51,8 @@ class Sensor:
 # The smallest first.
 SENSORS = (
     Sensor("vl53l8ch", "8 x 8 zones at 940 nm", "hispointer"),
-    Sensor("small_64x48", "a pulse of 0.2 ns, a TDC of 12 bits", "sifh"),
-    Sensor("thesis", "the thesis's sensor", "poolpointer"),
+    Sensor("small_64x48", "a pulse of 0.2 ns, a TDC of 12 bits", "sifh", ("--columns-per-sram", "4")),
+    Sensor("thesis", "the thesis's sensor", "poolpointer", ("--engine-columns", "100")),
     Sensor("car_320x120", "a car's, to 200 m", "coarsehistogram"),
     Sensor("vga_640x480", "640 x 480 pixels", "poolpointer-lean"),
 )
@@ -96,7 +101,7 @@ def make(sensor: Sensor) -> Product:
     folder = BUILD / sensor.name
     shutil.rmtree(folder, ignore_errors=True)
     log = BUILD / f"{sensor.name}.log"
-    run([str(PROGRAM), "product", "--sensor", sensor.given, "--readout", sensor.readout, "--out", str(folder)], log)
+    run([str(PROGRAM), "product", "--sensor", sensor.given, "--readout", sensor.readout, *sensor.options, "--out", str(folder)], log)
     started = time.monotonic()
     text = run(["make", "-C", str(folder)], log)
     seconds = time.monotonic() - started
@@ -114,7 +119,7 @@ def make(sensor: Sensor) -> Product:
 
 
 def page(products: list[Product]) -> str:
-    rows = [f"| {one.sensor.what} (`{one.sensor.given}`) | {one.columns} x {one.rows} | {one.bits} | {one.sensor.readout} | {one.acquisitions:,} | "
+    rows = [f"| {one.sensor.what} (`{one.sensor.given}`) | {one.columns} x {one.rows} | {one.bits} | {one.sensor.choice} | {one.acquisitions:,} | "
             f"{one.results:,} | {one.simulators} | {one.seconds:.0f} |" for one in products]
     return "\n".join([
         "# From a sensor file to a product",
@@ -122,7 +127,7 @@ def page(products: list[Product]) -> str:
         "From `make products`: `dtof product` for each sensor, then the product's own `make`. It simulates a frame of the sensor's photons,",
         "compares every result with the model, and compiles and checks the driver. All of the products below pass.",
         "",
-        "| sensor | columns x rows | bits of a timestamp | read-out | acquisitions simulated | results compared | in | `make`, s |",
+        "| sensor | columns x rows of the array | bits of a timestamp | read-out | acquisitions simulated | results compared | in | `make`, s |",
         "|---|---:|---:|---|---:|---:|---|---:|",
         *rows,
         "",
@@ -142,7 +147,7 @@ def main() -> int:
         products = []
         for sensor in SENSORS[:1] if is_small() else SENSORS:
             products.append(make(sensor))
-            print(f"products: {sensor.name}, {sensor.readout}: {products[-1].results} results, {products[-1].seconds:.0f} s", flush=True)
+            print(f"products: {sensor.name}, {sensor.choice}: {products[-1].results} results, {products[-1].seconds:.0f} s", flush=True)
         REPORT.write_text(page(products), encoding="utf-8")
         print(f"products: wrote {REPORT.relative_to(ROOT)}")
         return 0

@@ -198,16 +198,16 @@ std::string design_recommendation(const DesignRequest& request, const DesignResu
                         kGoodRatio, share_text(first.best_known().worst().above_3_percent), title_of(first),
                         chosen.candidate.cost.mm2, first.candidate.cost.mm2);
   }
-  if (found.competitor) {
-    const DesignOption& other = result.options[*found.competitor];
-    text += fmt::format(" Nearest competitor: {}, {}, {} %.", name_of_choice(request, other),
-                        cost_text(request, other), share_text(other.best_known().worst().above_3_percent));
-  }
   const double least_hz = static_cast<double>(chosen.candidate.clocks) * request.limits.budget.frames_per_s;
   if (least_hz < 0.9 * request.limits.budget.clock_hz) {
     text +=
         fmt::format(" Its frames still fit at {:.0f} MHz, with {:.0f} mW.", std::ceil(least_hz * kMegahertz),
                     chosen.candidate.mw(std::ceil(least_hz * kMegahertz) / kMegahertz));
+  }
+  if (found.competitor) {
+    const DesignOption& other = result.options[*found.competitor];
+    text += fmt::format(" Nearest competitor: {}, {}, {} %.", name_of_choice(request, other),
+                        cost_text(request, other), share_text(other.best_known().worst().above_3_percent));
   }
   if (near_a_limit(request, chosen)) {
     text += " The estimate's error could take the array beyond a limit: --confirm measures it.";

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "design/design_page.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 
+#include "dtof/core/frame_time.hpp"
 #include "dtof/sensor/preset.hpp"
 
 namespace dtof {
@@ -69,6 +71,40 @@ TEST(DesignPage, TheRecommendationHasItsReasonAndItsCompetitor) {
   EXPECT_THAT(text, HasSubstr("Nearest competitor: ezPointer, 1.00 mm2"));
   const std::string alone = design_recommendation(request(), result(request(), {two_options()[1]}));
   EXPECT_THAT(alone, HasSubstr("No other read-out keeps the limits"));
+}
+
+// 1,100,000 clocks, 30 times a second.
+TEST(DesignPage, TheSlowestClockIsSaidIfTheFrameLeavesTime) {
+  DesignRequest asked = request();
+  std::vector<DesignOption> options = two_options();
+  const std::string text = design_recommendation(asked, result(asked, options));
+  const double mw = options[0].candidate.mw(33e6);
+  EXPECT_LT(mw, 0.2 * options[0].candidate.mw(330e6));
+  EXPECT_THAT(text, HasSubstr(fmt::format(" Its frames still fit at 33 MHz, with {:.0f} mW. Nearest", mw)));
+  options[0].candidate.clocks = 10'500'000;
+  EXPECT_THAT(design_recommendation(asked, result(asked, options)), Not(HasSubstr("still fit")));
+}
+
+TEST(DesignPage, SeveralColumnsForEachSramAreSaidEverywhere) {
+  const DesignRequest asked = request();
+  std::vector<DesignOption> options = two_options();
+  ArrayChoice& array = options[1].candidate.array;
+  array.columns_per_sram = 4;
+  array.rows = 640;
+  array.columns = 50;
+  array.pointer_ports = 1;
+  const DesignResult found = result(asked, {options[1]});
+  EXPECT_EQ(
+      design_product(asked, found, "thesis"),
+      "dtof product --sensor thesis --readout ezpointer --pointer-ports 1 --columns-per-sram 4 --out chip");
+  EXPECT_THAT(design_rows(asked, found).markdown(),
+              HasSubstr("ezPointer --pointer-ports 1 --columns-per-sram 4"));
+  EXPECT_THAT(
+      design_clocks(asked, found).front(),
+      HasSubstr(fmt::format(" takes {} clocks", predicted_frame_clocks(array.parameters, 640, 50, 3333))));
+  options[1].candidate.array.arrays = 2;
+  EXPECT_THAT(design_product(asked, result(asked, {options[1]}), "thesis"),
+              HasSubstr("# with columns = 200 in"));
 }
 
 TEST(DesignPage, ASmallerArrayThatIsAsGoodIsTheReason) {
