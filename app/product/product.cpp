@@ -56,6 +56,16 @@ std::string filled(std::string_view name, const std::vector<std::pair<std::strin
   return text;
 }
 
+/// With how many columns for each SRAM the frame fits; nothing if it fits with none.
+std::string fewer_columns_text(ProductRequest request) {
+  while (--request.columns_per_sram > 0) {
+    if (product_fit(request).fits) {
+      return fmt::format(" --columns-per-sram {} would do, too.", request.columns_per_sram);
+    }
+  }
+  return "";
+}
+
 void check(const ProductRequest& request) {
   request.parameters.validate();
   const RtlConfiguration array = product_array(request);
@@ -76,7 +86,7 @@ void check(const ProductRequest& request) {
   }
   const FrameFit fit = product_fit(request);
   if (!fit.fits) {
-    throw InputError("product: " + fit.sentence);
+    throw InputError("product: " + fit.sentence + fewer_columns_text(request));
   }
 }
 

@@ -359,6 +359,22 @@ TEST(ProductFiles, RefuseColumnsThatCannotShareAnSram) {
   EXPECT_THAT([&] { (void)product_files(made); },
               ThrowsMessage<InputError>(
                   HasSubstr("product: 1 x 4104 pixels of 2 slots; dtof_subsystem has at most")));
+  made.sensor.rows = 6;
+  made.budget.frames_per_s = 120000.0;
+  made.columns_per_sram = 4;
+  const auto message = [&] {
+    try {
+      (void)product_files(made);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message(), HasSubstr(" --columns-per-sram 3 would do, too."));
+  made.columns_per_sram = 3;
+  EXPECT_TRUE(product_fit(made).fits);
+  made.budget.frames_per_s = 1e6;
+  EXPECT_THAT(message(), Not(HasSubstr("columns-per-sram")));
   ProductRequest pool = request(Readout::kPoolPointer);
   pool.columns_per_sram = 2;
   EXPECT_THAT([&] { (void)product_files(pool); },
