@@ -120,15 +120,15 @@ def make(sensor: Sensor) -> Product:
 
 def page(products: list[Product]) -> str:
     rows = [f"| {one.sensor.what} (`{one.sensor.given}`) | {one.columns} x {one.rows} | {one.bits} | {one.sensor.choice} | {one.acquisitions:,} | "
-            f"{one.results:,} | {one.simulators} | {one.seconds:.0f} |" for one in products]
+            f"{one.results:,} | {one.simulators} |" for one in products]
     return "\n".join([
         "# From a sensor file to a product",
         "",
         "From `make products`: `dtof product` for each sensor, then the product's own `make`. It simulates a frame of the sensor's photons,",
         "compares every result with the model, and compiles and checks the driver. All of the products below pass.",
         "",
-        "| sensor | columns x rows of the array | bits of a timestamp | read-out | acquisitions simulated | results compared | in | `make`, s |",
-        "|---|---:|---:|---|---:|---:|---|---:|",
+        "| sensor | columns x rows of the array | bits of a timestamp | read-out | acquisitions simulated | results compared | in |",
+        "|---|---:|---:|---|---:|---:|---|",
         *rows,
         "",
         "The frame that is simulated has as many acquisitions as fit into some megabytes of vectors. The clocks of a whole frame:",

@@ -2,7 +2,6 @@
 #include "product/product.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -13,23 +12,22 @@
 #include <utility>
 #include <vector>
 
-#include "dtof/analytic/fidelity.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/folded_source.hpp"
 #include "dtof/design/array_memories.hpp"
-#include "dtof/frame/flat_calibration.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/photon/photon_source.hpp"
+#include "product/product_driver.hpp"
 #include "product/product_report.hpp"
 #include "rtl/settings.hpp"
 #include "sources/sources.hpp"
-#include "subsystem/self_test_reference.hpp"
 #include "vectors/stimulus.hpp"
 
 namespace dtof {
 namespace {
 
 using Files = std::map<std::string, std::string>;
+using Values = std::vector<std::pair<std::string, std::string>>;  ///< by the name in a template
 
 constexpr std::string_view kLicence = "SPDX-License-Identifier: Apache-2.0";
 constexpr int kMostIcarusPixels =
@@ -45,7 +43,7 @@ std::string source(std::string_view path) {
 }
 
 /// A template with its @NAMES@ replaced.
-std::string filled(std::string_view name, const std::vector<std::pair<std::string, std::string>>& values) {
+std::string filled(std::string_view name, const Values& values) {
   std::string text = source(fmt::format("app/product/templates/{}", name));
   for (const auto& [key, value] : values) {
     const std::string mark = "@" + key + "@";
@@ -224,24 +222,6 @@ void add_rtl(Files& files) {
   files["Bender.yml"] = bender + bender_rtl + "      - rtl/dtof_product.sv\n" + bender_technology;
 }
 
-int result_fraction_bits(const ReadoutParameters& parameters) {
-  const bool has = is_pointer_readout(parameters.readout) || is_pool_readout(parameters.readout) ||
-                   parameters.readout == Readout::kCoarseHistogram;
-  return has ? parameters.fraction_bits : 0;
-}
-
-/// The table from flat targets, as `dtof frame --table flat` fits it.
-/// The entries of TEMPLATE as a C array, with a sentence of how to write them; nothing without a template.
-std::string template_array(const PoolTemplate& coarse_template) {
-  if (coarse_template == PoolTemplate{}) {
-    return "";
-  }
-  return fmt::format(
-      "/* What decode takes from the coarse bins, for dtof_set_template between frames. */\n"
-      "static const uint8_t dtof_product_template[DTOF_TEMPLATE_ENTRIES] = {{{}}};\n\n",
-      fmt::join(coarse_template, ", "));
-}
-
 /// The same as a number in hexadecimal digits, entry 0 lowest.
 std::string template_digits(const PoolTemplate& coarse_template) {
   std::string digits;
@@ -249,85 +229,6 @@ std::string template_digits(const PoolTemplate& coarse_template) {
     digits += fmt::format("{:02x}", *entry);
   }
   return digits;
-}
-
-/// A self-test: with the default settings, the product's schedule and `seed`, the words of the frame have the
-/// checksum `expected`.
-struct SelfTest {
-  std::uint32_t acquisitions;
-  std::uint32_t seed;
-  std::uint32_t expected;
-};
-
-SelfTest self_test_of(const ProductRequest& request, std::uint32_t acquisitions) {
-  constexpr std::uint32_t kSeed = 1;
-  return {acquisitions, kSeed, self_test_signature(product_array(request), false, acquisitions, kSeed)};
-}
-
-/// Settings and checksum for dtof_self_test, with a sentence of how to use them.
-std::string self_test_settings(const SelfTest& test, const std::string& schedule) {
-  return fmt::format(
-      "/* For dtof_self_test: write these settings before it, with a TEMPLATE of 0; then those of the "
-      "product. */\n"
-      "#define DTOF_PRODUCT_SELF_TEST_ACQUISITIONS {}\n#define DTOF_PRODUCT_SELF_TEST_SEED 0x{:08X}UL\n"
-      "#define DTOF_PRODUCT_SELF_TEST_EXPECTED 0x{:08X}UL\n\n"
-      "static inline dtof_settings dtof_product_self_test_settings(const dtof_device *device) {{\n"
-      "  dtof_settings settings = dtof_default_settings(device, DTOF_PRODUCT_SELF_TEST_ACQUISITIONS);\n{}"
-      "  return settings;\n}}\n\n",
-      test.acquisitions, test.seed, test.expected, schedule);
-}
-
-std::string driver_header(const ProductRequest& request, const SelfTest& self_test) {
-  const SensorModel sensor = request.sensor.as_calibrated();
-  const FlatCalibration calibration(sensor);
-  const std::array<ReadoutParameters, 1> readouts = {request.parameters};
-  const std::vector<RangeConverter> tables = calibration.fit(
-      [&](const TargetMap& targets) {
-        return make_source(Fidelity::kExact, PhotonSource(sensor, targets, request.klux, request.seed,
-                                                          FlatCalibration::kFrame));
-      },
-      readouts, request.seed, request.threads);
-  const auto& knots = tables.front().table().knots();
-  std::string points;
-  for (const CalibrationPoint& knot : knots) {
-    points += fmt::format("    {{{:.6f}, {:.4f}}},\n", knot.position, knot.distance_m * 1e3);
-  }
-  const PoolPointerParameters& pool = request.parameters.pool;
-  std::string schedule;
-  std::string changes;
-  if (is_pool_readout(request.parameters.readout)) {
-    schedule = fmt::format("  settings.coarse_share = {};\n  settings.track_share = {};\n", pool.coarse_share,
-                           pool.track_share);
-    changes = schedule + fmt::format("  settings.smooth = {};\n", pool.smooth);
-  }
-  if (request.parameters.time_gate) {
-    changes += fmt::format("  settings.gate_begin = {};\n  settings.gate_end = {};\n",
-                           request.parameters.time_gate->begin, request.parameters.time_gate->end);
-  }
-  return fmt::format(
-      "/* {}\n * {} for the sensor {}: its settings, and the look-up table from {} at\n * {:g} klux. Written "
-      "by dtof product. */\n"
-      "#ifndef DTOF_PRODUCT_H\n#define DTOF_PRODUCT_H\n\n#include \"dtof.h\"\n\n"
-      "#define DTOF_PRODUCT_TIMESTAMP_BITS {}\n#define DTOF_PRODUCT_FRACTION_BITS {}\n#define "
-      "DTOF_PRODUCT_ACQUISITIONS {}\n"
-      "#define DTOF_PRODUCT_COLUMNS {}\n#define DTOF_PRODUCT_ROWS {}\n#define "
-      "DTOF_PRODUCT_COLUMNS_PER_SRAM {}\n"
-      "#define DTOF_PRODUCT_CODE_PS {:.6f}\n#define DTOF_PRODUCT_FWHM_PS {:.6f}\n#define DTOF_PRODUCT_POINTS "
-      "{}\n\n"
-      "/* The sensor's column and row of a result, from the column and the row of its word. */\n"
-      "static inline unsigned dtof_product_column(unsigned column, unsigned row) {{\n"
-      "  return column * DTOF_PRODUCT_COLUMNS_PER_SRAM + row / DTOF_PRODUCT_ROWS;\n}}\n\n"
-      "static inline unsigned dtof_product_row(unsigned row) {{ return row % DTOF_PRODUCT_ROWS; }}\n\n"
-      "static inline dtof_settings dtof_product_settings(const dtof_device *device) {{\n"
-      "  dtof_settings settings = dtof_default_settings(device, DTOF_PRODUCT_ACQUISITIONS);\n{}  return "
-      "settings;\n}}\n\n{}{}"
-      "static const dtof_point dtof_product_table[DTOF_PRODUCT_POINTS] = {{\n{}}};\n\n#endif\n",
-      kLicence, readout_title(request.parameters.readout), request.sensor.name, calibration.description(),
-      request.klux, request.parameters.np, result_fraction_bits(request.parameters),
-      request.sensor.acquisitions, request.sensor.columns, request.sensor.rows, request.columns_per_sram,
-      request.sensor.time_resolution_s() * 1e12, request.sensor.pulse_fwhm_s * 1e12, knots.size(), changes,
-      request.self_test ? self_test_settings(self_test, schedule) : "", template_array(pool.coarse_template),
-      points);
 }
 
 /// Which pixels a column of the array has; nothing if a column of the array is one of the sensor.
@@ -343,6 +244,51 @@ std::string folded_text(const ProductRequest& request) {
                              "the results. "
                              "`dtof_product.h` has functions for it.",
                              together, together - 1, request.sensor.rows);
+}
+
+/// What stands for the names in the templates. `acquisitions`: of the vectors.
+Values template_values(const ProductRequest& request, const ArrayParameters& array,
+                       std::uint32_t acquisitions, const SelfTest& self_test) {
+  const PoolSchedule schedule(acquisitions, request.parameters.pool);
+  const bool pool = is_pool_readout(request.parameters.readout);
+  const bool small = array.columns * array.rows <= kMostIcarusPixels;
+  const CodeGate gate = request.parameters.time_gate.value_or(CodeGate{0, request.parameters.no_detection()});
+  const std::uint64_t clocks =
+      predicted_frame_clocks(request.parameters, array.rows, array.columns, acquisitions);
+  const auto number = [](auto value) { return fmt::format("{}", value); };
+  return {
+      {"TITLE", std::string(readout_title(request.parameters.readout))},
+      {"SENSOR", request.sensor.name},
+      {"COLUMNS", number(array.columns)},
+      {"ROWS", number(array.rows)},
+      {"SENSOR_COLUMNS", number(request.sensor.columns)},
+      {"SENSOR_ROWS", number(request.sensor.rows)},
+      {"FOLDED", folded_text(request)},
+      {"NP", number(request.parameters.np)},
+      {"SLOTS", number(request.parameters.slots)},
+      {"ACQUISITIONS", number(acquisitions)},
+      {"TEMPLATE", template_digits(request.parameters.pool.coarse_template)},
+      {"COARSE_END", number(pool ? schedule.coarse_end : 0)},
+      {"TRACK_END", number(pool ? schedule.track_end : 0)},
+      {"TIME_GATE", number(request.parameters.time_gate ? 1 : 0)},
+      {"GATE_BEGIN", number(gate.begin)},
+      {"GATE_END", number(gate.end)},
+      {"FRACTION_BITS", number(result_fraction_bits(request.parameters))},
+      {"SELF_TEST", number(request.self_test ? 1 : 0)},
+      {"SELF_TEST_SEED", fmt::format("{:08x}", self_test.seed)},
+      {"SELF_TEST_EXPECTED", fmt::format("{:08x}", self_test.expected)},
+      {"MOST_CLOCKS", number((request.self_test ? 4 : 2) * clocks + 20000)},
+      {"PERIOD", fmt::format("{:.4f}", 1e9 / request.budget.clock_hz)},
+      {"MHZ", fmt::format("{:g}", request.budget.clock_hz * 1e-6)},
+      {"SCENE", std::string(scene_name(request.scene))},
+      {"KLUX", fmt::format("{:g}", request.klux)},
+      {"PAIRS", pool ? "bench/pairs.vlt " : ""},
+      {"CHECKS", small ? "icarus verilator driver" : "verilator driver"},
+      {"PASSED", small ? "icarus, verilator, driver" : "verilator, driver"},
+      {"SIMULATORS", small ? "Icarus Verilog and in Verilator"
+                           : "Verilator (`make icarus` does the same in Icarus Verilog, which is slow for an "
+                             "array of this size)"},
+      {"COMMAND", request.command}};
 }
 
 std::uint32_t vector_acquisitions(const ProductRequest& request) {
@@ -410,48 +356,9 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
   const ArrayParameters array{
       .readout = request.parameters, .rows = streams.rows(), .columns = streams.columns()};
   FrameVectors vectors = source_vectors(array, streams);
-  const PoolSchedule schedule(sensor.acquisitions, request.parameters.pool);
-  const bool pool = is_pool_readout(request.parameters.readout);
-  const bool small = array.columns * array.rows <= kMostIcarusPixels;
-  const CodeGate gate = request.parameters.time_gate.value_or(CodeGate{0, request.parameters.no_detection()});
-  const std::uint64_t clocks =
-      predicted_frame_clocks(request.parameters, array.rows, array.columns, sensor.acquisitions);
-  const SelfTest self_test = request.self_test ? self_test_of(request, sensor.acquisitions) : SelfTest{};
-  const auto number = [](auto value) { return fmt::format("{}", value); };
-  const std::vector<std::pair<std::string, std::string>> values = {
-      {"TITLE", std::string(readout_title(request.parameters.readout))},
-      {"SENSOR", sensor.name},
-      {"COLUMNS", number(array.columns)},
-      {"ROWS", number(array.rows)},
-      {"SENSOR_COLUMNS", number(sensor.columns)},
-      {"SENSOR_ROWS", number(sensor.rows)},
-      {"FOLDED", folded_text(request)},
-      {"NP", number(request.parameters.np)},
-      {"SLOTS", number(request.parameters.slots)},
-      {"ACQUISITIONS", number(sensor.acquisitions)},
-      {"TEMPLATE", template_digits(request.parameters.pool.coarse_template)},
-      {"COARSE_END", number(pool ? schedule.coarse_end : 0)},
-      {"TRACK_END", number(pool ? schedule.track_end : 0)},
-      {"TIME_GATE", number(request.parameters.time_gate ? 1 : 0)},
-      {"GATE_BEGIN", number(gate.begin)},
-      {"GATE_END", number(gate.end)},
-      {"FRACTION_BITS", number(result_fraction_bits(request.parameters))},
-      {"SELF_TEST", number(request.self_test ? 1 : 0)},
-      {"SELF_TEST_SEED", fmt::format("{:08x}", self_test.seed)},
-      {"SELF_TEST_EXPECTED", fmt::format("{:08x}", self_test.expected)},
-      {"MOST_CLOCKS", number((request.self_test ? 4 : 2) * clocks + 20000)},
-      {"PERIOD", fmt::format("{:.4f}", 1e9 / request.budget.clock_hz)},
-      {"MHZ", fmt::format("{:g}", request.budget.clock_hz * 1e-6)},
-      {"SCENE", std::string(scene_name(request.scene))},
-      {"KLUX", fmt::format("{:g}", request.klux)},
-      {"PAIRS", pool ? "bench/pairs.vlt " : ""},
-      {"CHECKS", small ? "icarus verilator driver" : "verilator driver"},
-      {"PASSED", small ? "icarus, verilator, driver" : "verilator, driver"},
-      {"SIMULATORS", small ? "Icarus Verilog and in Verilator"
-                           : "Verilator (`make icarus` does the same in Icarus Verilog, which is slow for an "
-                             "array of this size)"},
-      {"COMMAND", request.command}};
-  if (pool) {
+  const SelfTest self_test = request.self_test ? product_self_test(request, sensor.acquisitions) : SelfTest{};
+  const Values values = template_values(request, array, sensor.acquisitions, self_test);
+  if (is_pool_readout(request.parameters.readout)) {
     files["bench/pairs.vlt"] = source("tb_cpp/rtl/pairs.vlt");
   }
   files["rtl/dtof_product.sv"] = top(request);
@@ -464,7 +371,7 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
     files[path] = source(path);
   }
   files["driver/check.c"] = filled("check.c", values);
-  files["driver/dtof_product.h"] = driver_header(request, self_test);
+  files["driver/dtof_product.h"] = product_driver_header(request, self_test);
   for (const SourceFile& file : project_sources()) {
     if (file.path.starts_with("driver/") && !file.path.starts_with("driver/dtof_filter.")) {
       files[std::string(file.path)] = file.text;
