@@ -51,7 +51,7 @@ class Sensor:
 # The smallest first.
 SENSORS = (
     Sensor("vl53l8ch", "8 x 8 zones at 940 nm", "hispointer"),
-    Sensor("small_64x48", "a pulse of 0.2 ns, a TDC of 12 bits", "sifh", ("--columns-per-sram", "4")),
+    Sensor("small_64x48", "a pulse of 0.2 ns, a TDC of 12 bits", "sifh", ("--columns-per-sram", "3")),
     Sensor("thesis", "the thesis's sensor", "poolpointer", ("--engine-columns", "100")),
     Sensor("car_320x120", "a car's, to 200 m", "coarsehistogram"),
     Sensor("vga_640x480", "640 x 480 pixels", "poolpointer-lean"),

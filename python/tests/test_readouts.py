@@ -28,7 +28,10 @@ class ReadoutTest(unittest.TestCase):
             for parameter, value in dtof.Readout(name).parameters.items():
                 if parameter == "np" or (KNOWN[name]["kind"] == "pool" and parameter == "count_width"):
                     continue  # others follow from the one, the other has one value
-                other = 1 - value if parameter == "window_centred" else value - 1 if value > 2 else value + 1
+                if parameter in ("group_size", "engine_columns"):
+                    other = 2 * value
+                else:
+                    other = 1 - value if parameter == "window_centred" else value - 1 if value > 2 else value + 1
                 changed: dict[str, Any] = {parameter: other}
                 self.assertEqual(dtof.Readout(name, **changed).parameters[parameter], other, f"{name} {parameter}")
                 self.assertNotEqual(dtof.Readout(name, **changed), dtof.Readout(name))

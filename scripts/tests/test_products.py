@@ -56,7 +56,7 @@ class Products(unittest.TestCase):
 
     def test_the_page_has_a_row_for_each_product(self) -> None:
         text = products.page([self.made()])
-        self.assertIn("| small one (`small`) | 8 x 6 | 8 | hispointer | 3,333 | 48 | Icarus Verilog and Verilator | ", text)
+        self.assertIn("| small one (`small`) | 8 x 6 | 8 | hispointer | 3,333 | 48 | Icarus Verilog and Verilator |", text)
         self.assertIn(f"* `small`, {FRAME}", text)
 
     def test_sensors_are_files_or_presets_and_differ(self) -> None:

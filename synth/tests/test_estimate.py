@@ -69,7 +69,7 @@ class Estimate(unittest.TestCase):
         self.assertEqual(model.fmax_mhz(base), 350.0)
         larger = base.with_parameters("larger", PIXELS_PER_SRAM=2560)
         access = max(estimate.sram_model.macro(size).access_slow for size in configuration.memories(larger).values())
-        self.assertAlmostEqual(model.fmax_mhz(larger), 1e3 / (access + estimate.AFTER_ACCESS_NS))
+        self.assertAlmostEqual(model.fmax_mhz(larger), 1e3 / (access + estimate.AFTER_ACCESS_NS["histogram"]))
         self.assertLess(model.fmax_mhz(larger), 300.0)
 
     def test_a_step_of_the_sweeps_is_followed(self):

@@ -65,7 +65,7 @@ class Install(unittest.TestCase):
                       "echo \"${COMPREPLY[@]}\"").split()
 
     def test_bash_completes_a_command_an_option_and_a_value(self) -> None:
-        for program, words, whole in (("dtof", ["repl"], "replay"), ("dtof", ["frame", "--eng"], "--engine"),
+        for program, words, whole in (("dtof", ["repl"], "replay"), ("dtof", ["frame", "--verif"], "--verify"),
                                       ("dtof", ["frame", "--engine", "mo"], "model"), ("dtof-study", ["wal"], "walk"),
                                       ("dtof-study", ["accuracy", "--sen"], "--sensor"),
                                       ("dtof-study", ["accuracy", "--sensor", "phon"], "phone")):

@@ -60,7 +60,7 @@ TEST(PlaygroundAdvice, IsThatOfTheDesignForTheTypedSensor) {
           steps.emplace_back(step);
         }
       }));
-  EXPECT_EQ(steps, (std::vector<std::string>{"parameters", "read-outs"}));
+  EXPECT_EQ(steps, (std::vector<std::string>{"parameters", "read-outs", "contenders"}));
 
   DesignRequest design;
   design.bench.sensor = parse_sensor(typed(), "typed.toml");

@@ -14,7 +14,9 @@ namespace {
 
 constexpr double kLeastColumnShare = 0.3;  // of the reference's column
 constexpr double kLeastControlShare = 0.1;
-constexpr double kAfterAccessNs = 0.35;  // from an SRAM's data to a register, with setup and uncertainty
+// From an SRAM's data to a register, with setup and uncertainty.
+constexpr double kAfterAccessNs = 0.5;
+constexpr double kAfterPoolAccessNs = 1.24;
 
 double column_um2(const ArrayChoice& array, const ReadoutCoefficients& of, const FamilySlopes& slopes) {
   const ReadoutParameters& p = array.parameters;
@@ -101,7 +103,7 @@ double sram_period_ns(const ArrayChoice& array) {
       access_ns = std::max(access_ns, sram_macro(size).access_slow_ns);
     }
   }
-  return access_ns + kAfterAccessNs;
+  return access_ns + (is_pool_readout(array.parameters.readout) ? kAfterPoolAccessNs : kAfterAccessNs);
 }
 
 double between(double dusk, double day, double share) { return std::max(dusk + share * (day - dusk), 0.0); }

@@ -28,7 +28,8 @@ TEST(ReadoutChoice, NamesAreThoseOfReadoutsToml) {
   EXPECT_THAT(parameter_names(Readout::kSifh),
               ElementsAre("NP", "SLOTS", "NB", "COUNT_WIDTH", "WINDOW_CENTRED"));
   EXPECT_THAT(parameter_names(Readout::kPoolPointer),
-              ElementsAre("NP", "SLOTS", "COUNT_WIDTH", "CELL_SHIFT"));
+              ElementsAre("NP", "SLOTS", "COUNT_WIDTH", "GROUP_SIZE", "LABELS", "SCORE_BITS", "CELL_SHIFT",
+                          "ENGINE_COLUMNS"));
 }
 
 TEST(ReadoutChoice, WhatIsSetIsThereAndNothingElseChanges) {
