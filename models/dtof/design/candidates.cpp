@@ -42,15 +42,15 @@ void vary(std::vector<ReadoutParameters>& sets, std::span<const int> values, con
   sets = std::move(varied);
 }
 
-/// The read-out's own engine, half of it, and engines that halve the array or serve the whole array.
+/// The read-out's own engine, half of it, and equal engines of at most kWidestEngine columns.
 std::vector<int> engine_widths(const ReadoutParameters& base, const SensorModel& sensor) {
   const auto even = [](int columns) { return (columns + 1) / 2 * 2; };
   const int own = base.pool.engine_columns;
+  const int engines = (sensor.columns + kWidestEngine - 1) / kWidestEngine;
+  const int widest = even((sensor.columns + engines - 1) / engines);
   std::set<int> widths = {even(own / 2), own};
-  for (const int width : {even((sensor.columns + 1) / 2), even(sensor.columns)}) {
-    if (width > own) {
-      widths.insert(width);
-    }
+  if (widest > own) {
+    widths.insert(widest);
   }
   return {widths.begin(), widths.end()};
 }

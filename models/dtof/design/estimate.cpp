@@ -17,6 +17,8 @@ constexpr double kLeastControlShare = 0.1;
 // From an SRAM's data to a register, with setup and uncertainty.
 constexpr double kAfterAccessNs = 0.5;
 constexpr double kAfterPoolAccessNs = 1.24;
+// An engine's line crosses all of its columns in a clock; of a synthesised engine of 200 columns.
+constexpr double kEngineColumnNs = 0.0196;
 
 double column_um2(const ArrayChoice& array, const ReadoutCoefficients& of, const FamilySlopes& slopes) {
   const ReadoutParameters& p = array.parameters;
@@ -114,9 +116,14 @@ CostEstimate estimate_cost(const ArrayChoice& array, const EstimateCoefficients&
   const ReadoutCoefficients& of = coefficients.of(array.parameters.readout);
   constexpr double kMegahertz = 1e3;  // 1 / ns
   const int beyond = std::max(array.columns - of.reference.columns, 0);
+  const int engine = is_pool_readout(array.parameters.readout)
+                         ? std::min(array.parameters.pool.engine_columns, array.columns)
+                         : 0;
+  const double line_ns = kEngineColumnNs * std::max(engine - kWidestEngine, 0);
   return {.mm2 = array.arrays * (Logic(array, coefficients).whole + Memories(array).area_um2) * 1e-6,
-          .fmax_mhz = kMegahertz / std::max(kMegahertz / of.fmax_mhz + beyond * coefficients.period_slope_ns,
-                                            sram_period_ns(array)),
+          .fmax_mhz = kMegahertz /
+                      std::max(kMegahertz / of.fmax_mhz + beyond * coefficients.period_slope_ns + line_ns,
+                               sram_period_ns(array)),
           .bits_per_pixel = bits_per_pixel(array)};
 }
 

@@ -8,6 +8,10 @@
 
 namespace dtof {
 
+/// Most columns of a poolPointer engine whose line meets the clock of the reference: the widest synthesised
+/// one.
+inline constexpr int kWidestEngine = 100;
+
 /// Area, clock and memory of all arrays together, by models fitted to synthesised configurations.
 struct CostEstimate {
   double mm2 = 0.0;

@@ -147,6 +147,28 @@ TEST(Design, AnSramOfManyRowsLimitsTheClockOfPoolPointer) {
   EXPECT_NEAR(fmax(1024), 285.0, 10.0);
 }
 
+// Two engines of 100 columns were synthesised at 350 MHz, one of 200 at 208.
+TEST(Design, AWideEngineLimitsTheClock) {
+  SensorModel sensor = parse_preset("thesis");
+  const auto widest = [&] {
+    int found = 0;
+    for (const ReadoutParameters& one : searched_parameters(sensor)) {
+      found = std::max(found, is_pool_readout(one.readout) ? one.pool.engine_columns : 0);
+    }
+    return found;
+  };
+  EXPECT_EQ(widest(), 100);
+  sensor.columns = 320;
+  EXPECT_EQ(widest(), 80) << "four equal engines";
+  sensor.columns = 64;
+  EXPECT_EQ(widest(), 64);
+  ArrayChoice array{.parameters = ReadoutParameters::defaults(Readout::kPoolPointerLean)};
+  array.parameters.pool.engine_columns = 100;
+  EXPECT_GT(estimate_cost(array).fmax_mhz, 350.0);
+  array.parameters.pool.engine_columns = 200;
+  EXPECT_NEAR(estimate_cost(array).fmax_mhz, 208.0, 2.0);
+}
+
 // At 30 frames/s 300 acquisitions leave time for one engine, at 6,000 frames/s they do not.
 TEST(Design, AnEngineServesAsManyColumnsAsTheFrameHasTimeFor) {
   DesignRequest request = quick_design(small_request());
