@@ -198,11 +198,12 @@ std::string design_recommendation(const DesignRequest& request, const DesignResu
                         kGoodRatio, share_text(first.best_known().worst().above_3_percent), title_of(first),
                         chosen.candidate.cost.mm2, first.candidate.cost.mm2);
   }
-  const double least_hz = static_cast<double>(chosen.candidate.clocks) * request.limits.budget.frames_per_s;
-  if (least_hz < 0.9 * request.limits.budget.clock_hz) {
-    text +=
-        fmt::format(" Its frames still fit at {:.0f} MHz, with {:.0f} mW.", std::ceil(least_hz * kMegahertz),
-                    chosen.candidate.mw(std::ceil(least_hz * kMegahertz) / kMegahertz));
+  const FrameBudget& budget = request.limits.budget;
+  const double least_mhz =
+      std::ceil(static_cast<double>(chosen.candidate.clocks) * budget.frames_per_s * kMegahertz);
+  if (least_mhz < 0.9 * budget.clock_hz * kMegahertz) {
+    text += fmt::format(" Its frames still fit at {:.0f} MHz, with {:.0f} mW.", least_mhz,
+                        chosen.candidate.mw(least_mhz / kMegahertz));
   }
   if (found.competitor) {
     const DesignOption& other = result.options[*found.competitor];

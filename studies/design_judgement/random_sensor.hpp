@@ -32,8 +32,8 @@ struct RandomSensor {
 std::vector<DesignCandidate> full_grid(const DesignRequest& request);
 /// Those that keep the limits.
 std::vector<DesignCandidate> kept_of(const std::vector<DesignCandidate>& grid, const DesignLimits& limits);
-/// Returns the candidate with the smallest array for each set of parameters: equal parameters have equal
-/// results.
+/// Returns the candidate with the smallest array of those that are compared with equal parameters
+/// (compared_parameters).
 std::vector<DesignCandidate> smallest_of_each(const std::vector<DesignCandidate>& candidates);
 
 /// Draws the sensor with this number. A quarter of the sensors has no limit but the default frame rate, a

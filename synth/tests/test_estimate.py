@@ -72,6 +72,13 @@ class Estimate(unittest.TestCase):
         self.assertAlmostEqual(model.fmax_mhz(larger), 1e3 / (access + estimate.AFTER_ACCESS_NS["histogram"]))
         self.assertLess(model.fmax_mhz(larger), 300.0)
 
+    def test_the_line_of_an_engine_limits_the_clock(self):
+        model = estimate.fit(points(), [])
+        base = next(one.configuration for one in points() if one.configuration.name == "poolpointer")
+        self.assertEqual(model.fmax_mhz(base.with_parameters("wide", ENGINE_COLUMNS=100)), 350.0)
+        self.assertAlmostEqual(model.fmax_mhz(base.with_parameters("whole", ENGINE_COLUMNS=200)), 1e3 / (1e3 / 350 + 1.96))
+        self.assertEqual(model.fmax_mhz(base.with_parameters("narrow", ENGINE_COLUMNS=200, SRAM_NUM=100)), 350.0)
+
     def test_a_step_of_the_sweeps_is_followed(self):
         base = points()[0].configuration
         steps = [estimate.Step(base.with_parameters("np", NP=12), base, 80.0)] * 5
