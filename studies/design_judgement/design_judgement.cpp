@@ -179,7 +179,7 @@ SensorJudgement judge_sensor(const JudgementSettings& settings, const DesignRequ
   with_threads.bench.threads = settings.threads;
   const DesignResult result = settings.design(with_threads);
   const DesignCandidate& chosen = result.options[*result.recommendation.chosen].candidate;
-  const std::vector<DesignCandidate> grid = full_grid(request);
+  const std::vector<DesignCandidate> grid = design_candidates(request);
   const std::vector<DesignCandidate> kept = smallest_of_each(kept_of(grid, request.limits));
   SensorJudgement judgement;
   judgement.grid = smallest_of_each(grid).size();

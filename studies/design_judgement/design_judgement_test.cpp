@@ -68,7 +68,7 @@ DesignResult result_of(std::vector<DesignOption> options, std::size_t chosen) {
 TEST(DesignJudgement, FindsAPlantedBadRecommendation) {
   JudgementSettings settings = small_design_judgement_study();
   settings.design = [&](const DesignRequest& request) {
-    const std::vector<DesignCandidate> grid = full_grid(request);
+    const std::vector<DesignCandidate> grid = design_candidates(request);
     const auto found =
         std::ranges::find(grid, Readout::kEzPointer, [](const DesignCandidate& c) { return c.readout(); });
     return result_of({option_of(found->array.parameters, 0.1)}, 0);
@@ -88,14 +88,14 @@ TEST(DesignJudgement, ARecommendationBeyondALimitIsBad) {
   JudgementSettings settings = small_design_judgement_study();
   DesignRequest request = small_request();
   std::vector<double> areas;
-  for (const DesignCandidate& candidate : full_grid(request)) {
+  for (const DesignCandidate& candidate : design_candidates(request)) {
     areas.push_back(candidate.cost.mm2);
   }
   std::ranges::sort(areas);
   request.limits.most_mm2 = areas[areas.size() / 4];
   settings.design = [](DesignRequest without_limit) {
     without_limit.limits = {};
-    const std::vector<DesignCandidate> grid = full_grid(without_limit);
+    const std::vector<DesignCandidate> grid = design_candidates(without_limit);
     const auto largest =
         std::ranges::max_element(grid, {}, [](const DesignCandidate& c) { return c.cost.mm2; });
     return result_of({option_of(largest->array.parameters, 0.1)}, 0);
@@ -116,11 +116,11 @@ TEST(DesignJudgement, SaysWhereTheSearchLostTheBest) {
     return judge_sensor(settings, small_request(), 1);
   };
   // The first judgement tells which candidate is the best.
-  const ReadoutParameters poor = full_grid(small_request()).front().array.parameters;
+  const ReadoutParameters poor = design_candidates(small_request()).front().array.parameters;
   const std::string best_name =
       judged_with([&](const DesignRequest&) { return result_of({option_of(poor, 0.1)}, 0); }).best.name;
   ReadoutParameters best;
-  for (const DesignCandidate& candidate : full_grid(small_request())) {
+  for (const DesignCandidate& candidate : design_candidates(small_request())) {
     if (command_options(candidate.array.parameters, small_request().bench.sensor) ==
         "--readout " + best_name) {
       best = candidate.array.parameters;
@@ -156,7 +156,7 @@ TEST(DesignJudgement, SaysWhereTheSearchLostTheBest) {
 
 TEST(DesignJudgement, DoesNotDependOnTheThreads) {
   JudgementSettings settings = small_design_judgement_study();
-  const ReadoutParameters poor = full_grid(small_request()).front().array.parameters;
+  const ReadoutParameters poor = design_candidates(small_request()).front().array.parameters;
   settings.design = [&](const DesignRequest&) { return result_of({option_of(poor, 0.1)}, 0); };
   settings.threads = 1;
   const SensorJudgement one = judge_sensor(settings, small_request(), 1);
@@ -221,7 +221,8 @@ TEST(DesignJudgement, AnInterruptedRunGoesOnWithTheNextSensor) {
   settings.store = std::filesystem::path(testing::TempDir()) / "judged";
   std::filesystem::remove_all(settings.store);
   settings.design = [](const DesignRequest& request) {
-    const ReadoutParameters first = kept_of(full_grid(request), request.limits).front().array.parameters;
+    const ReadoutParameters first =
+        kept_of(design_candidates(request), request.limits).front().array.parameters;
     return result_of({option_of(first, 0.1)}, 0);
   };
   std::vector<SensorJudgement> reported;

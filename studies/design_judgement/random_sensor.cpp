@@ -89,7 +89,7 @@ std::string draw_limit(Draw& draw, DesignRequest& request) {
   enum Kind { kNone, kArea, kPower, kFrameRate };
   const int kind = draw.whole(kNone, kFrameRate);
   const double quantile = draw.even(kQuantile);
-  const std::vector<DesignCandidate> candidates = kept_of(full_grid(request), request.limits);
+  const std::vector<DesignCandidate> candidates = kept_of(design_candidates(request), request.limits);
   if (candidates.empty()) {
     throw InputError("no read-out keeps the clock and the default frame rate");
   }
@@ -118,20 +118,6 @@ std::string draw_limit(Draw& draw, DesignRequest& request) {
 }
 
 }  // namespace
-
-std::vector<DesignCandidate> full_grid(const DesignRequest& request) {
-  const BenchSettings& bench = request.bench;
-  std::map<int, double> slots_taken;
-  for (int slots = 1; slots <= bench.sensor.slots; ++slots) {
-    const SensorModel sensor = with_slots(bench.sensor, slots);
-    for (const Scene scene : bench.scenes) {
-      slots_taken[slots] +=
-          slot_rate(sensor, scaled_scene(scene, sensor, bench.seed), std::ranges::max(bench.klux)) /
-          static_cast<double>(bench.scenes.size());
-    }
-  }
-  return all_candidates(bench.sensor, request.limits.budget.clock_hz, slots_taken);
-}
 
 std::vector<DesignCandidate> kept_of(const std::vector<DesignCandidate>& grid, const DesignLimits& limits) {
   std::vector<DesignCandidate> kept;

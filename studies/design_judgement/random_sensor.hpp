@@ -27,10 +27,7 @@ struct RandomSensor {
   int refused = 0;        ///< earlier draws that no read-out suits
 };
 
-/// Returns all parameter sets of the search's grid with their costs, whether or not they keep the limits. The
-/// search itself reads only a part of them. Sets whose memories cannot be made are left out.
-std::vector<DesignCandidate> full_grid(const DesignRequest& request);
-/// Those that keep the limits.
+/// Returns the candidates that keep the limits.
 std::vector<DesignCandidate> kept_of(const std::vector<DesignCandidate>& grid, const DesignLimits& limits);
 /// Returns the candidate with the smallest array of those that are compared with equal parameters
 /// (compared_parameters).

@@ -41,7 +41,7 @@ TEST(RandomSensor, KeepsItsRangesAndSuitsAReadout) {
     EXPECT_GE(sensor.np, 8);
     EXPECT_LE(sensor.np, 12);
     EXPECT_LE(sensor.pulse_fwhm_s, sensor.integration_time_s / 12.0 * 1.01);
-    const std::vector<DesignCandidate> grid = full_grid(drawn.request);
+    const std::vector<DesignCandidate> grid = design_candidates(drawn.request);
     const std::size_t kept = kept_of(grid, drawn.request.limits).size();
     EXPECT_GE(kept, 1U) << drawn.options;
     EXPECT_LE(kept, grid.size());
@@ -59,7 +59,7 @@ TEST(RandomSensor, TheGridHasEverySlotsAndTheCostsOfTheSearch) {
   request.bench.scenes = {Scene::kRoom};
   request.bench.klux = {20.0};
   request.frames = 2;
-  const std::vector<DesignCandidate> grid = full_grid(request);
+  const std::vector<DesignCandidate> grid = design_candidates(request);
   std::vector<ReadoutParameters> compared;
   std::ranges::transform(searched_parameters(request.bench.sensor), std::back_inserter(compared),
                          compared_parameters);

@@ -20,20 +20,6 @@
 namespace dtof {
 namespace {
 
-std::vector<DesignCandidate> estimated(const DesignRequest& request) {
-  const BenchSettings& bench = request.bench;
-  const double brightest = std::ranges::max(bench.klux);
-  std::map<int, double> slots_taken;
-  for (int slots = 1; slots <= bench.sensor.slots; ++slots) {
-    const SensorModel sensor = with_slots(bench.sensor, slots);
-    for (const Scene scene : bench.scenes) {
-      slots_taken[slots] += slot_rate(sensor, scaled_scene(scene, sensor, bench.seed), brightest) /
-                            static_cast<double>(bench.scenes.size());
-    }
-  }
-  return all_candidates(bench.sensor, request.limits.budget.clock_hz, slots_taken);
-}
-
 /// True for candidates of the same parameters if `one` sees more light than `other`, or costs less area for
 /// as much.
 bool better_choice(const DesignCandidate& one, const DesignCandidate& other) {
@@ -222,6 +208,20 @@ void add_rivals(const DesignRequest& request, BenchEffort effort, DesignResult& 
 
 }  // namespace
 
+std::vector<DesignCandidate> design_candidates(const DesignRequest& request) {
+  const BenchSettings& bench = request.bench;
+  const double brightest = std::ranges::max(bench.klux);
+  std::map<int, double> slots_taken;
+  for (int slots = 1; slots <= bench.sensor.slots; ++slots) {
+    const SensorModel sensor = with_slots(bench.sensor, slots);
+    for (const Scene scene : bench.scenes) {
+      slots_taken[slots] += slot_rate(sensor, scaled_scene(scene, sensor, bench.seed), brightest) /
+                            static_cast<double>(bench.scenes.size());
+    }
+  }
+  return all_candidates(bench.sensor, request.limits.budget.clock_hz, slots_taken);
+}
+
 DesignRequest quick_design(DesignRequest request) {
   constexpr double kShare = 0.05;
   request.screening_work *= kShare;
@@ -248,7 +248,7 @@ DesignResult run_design(const DesignRequest& request) {
   if (request.frames < 2 || request.bench.klux.empty() || request.bench.scenes.empty()) {
     throw InputError("design: needs a scene, a light and at least 2 frames");
   }
-  const std::vector<DesignCandidate> candidates = estimated(request);
+  const std::vector<DesignCandidate> candidates = design_candidates(request);
   if (std::ranges::none_of(candidates,
                            [&](const DesignCandidate& c) { return limits_kept(c, request.limits).all(); })) {
     throw InputError("design: " + what_would_be_needed(candidates, request.limits) +

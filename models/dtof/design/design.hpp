@@ -67,6 +67,9 @@ struct DesignResult {
 /// the intervals can tell. Best first. A rival has no RTL, so it is never recommended.
 std::vector<const RivalOption*> more_accurate_rivals(const DesignResult& result);
 
+/// Returns every candidate of the request with its estimated cost, in the brightest light.
+std::vector<DesignCandidate> design_candidates(const DesignRequest& request);
+
 /// Estimates the cost of every candidate. Reads out those that meet the limits, also after one limit is
 /// loosened by 10 %. Of candidates that differ in SLOTS, ENGINE_COLUMNS and columns for each SRAM alone,
 /// reads one: with most SLOTS, then with the smallest array. Compares the best option of each read-out, and
