@@ -42,13 +42,17 @@ void vary(std::vector<ReadoutParameters>& sets, std::span<const int> values, con
   sets = std::move(varied);
 }
 
-/// The read-out's own engine, half of it, and equal engines of at most kWidestEngine columns.
+/// The read-out's own engine; half of it, where the sensor has more columns than that; and equal engines of at most kWidestEngine columns.
+/// An engine that is wider than the sensor is the same hardware as one of the sensor's columns.
 std::vector<int> engine_widths(const ReadoutParameters& base, const SensorModel& sensor) {
   const auto even = [](int columns) { return (columns + 1) / 2 * 2; };
   const int own = base.pool.engine_columns;
   const int engines = (sensor.columns + kWidestEngine - 1) / kWidestEngine;
   const int widest = even((sensor.columns + engines - 1) / engines);
-  std::set<int> widths = {even(own / 2), own};
+  std::set<int> widths = {own};
+  if (even(own / 2) < sensor.columns) {
+    widths.insert(even(own / 2));
+  }
   if (widest > own) {
     widths.insert(widest);
   }

@@ -169,6 +169,25 @@ TEST(Design, AWideEngineLimitsTheClock) {
   EXPECT_NEAR(estimate_cost(array).fmax_mhz, 208.0, 2.0);
 }
 
+// With 8 columns an engine of 18 and one of 36 columns are the same hardware.
+TEST(Design, FewColumnsKeepTheReadOutsOwnEngine) {
+  SensorModel sensor = parse_preset("thesis");
+  const auto widths = [&] {
+    std::set<int> found;
+    for (const ReadoutParameters& one : searched_parameters(sensor)) {
+      if (one.readout == Readout::kPoolPointer) {
+        found.insert(one.pool.engine_columns);
+      }
+    }
+    return found;
+  };
+  const int own = default_parameters(Readout::kPoolPointer, sensor).pool.engine_columns;
+  sensor.columns = 8;
+  EXPECT_THAT(widths(), ElementsAre(own));
+  sensor.columns = own;
+  EXPECT_THAT(widths(), Contains((own / 2 + 1) / 2 * 2));
+}
+
 // At 30 frames/s 300 acquisitions leave time for one engine, at 6,000 frames/s they do not.
 TEST(Design, AnEngineServesAsManyColumnsAsTheFrameHasTimeFor) {
   DesignRequest request = quick_design(small_request());
