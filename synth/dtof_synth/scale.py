@@ -190,7 +190,7 @@ def _in_a_process(command: list[str]) -> tuple[float, float]:
 
 def frame(program: Path, sensor_file: Path, readout: str, engine: str, columns: int, out: Path) -> list[str]:
     return [str(program), "frame", "--sensor", str(sensor_file), "--readout", readout, "--engine", engine, "--own-rows", "--columns",
-            f"0-{columns - 1}", "--acquisitions", str(SIMULATED_ACQUISITIONS), "--table", "none", "--out", str(out)]
+            f"0-{columns - 1}", "--acquisitions", str(SIMULATED_ACQUISITIONS), "--table", "none", "--threads", "1", "--out", str(out)]
 
 
 def strips(item: Configuration) -> list[int]:
@@ -354,11 +354,11 @@ def report(rows: list[Row], wholes: list[Whole]) -> str:
         "",
         "## Simulation",
         "",
-        f"Seconds on this machine for a frame of the whole array with {SIMULATED_ACQUISITIONS} acquisitions, from strips of one, two and three times "
+        f"Seconds on one machine for a frame of the whole array with {SIMULATED_ACQUISITIONS} acquisitions, from strips of one, two and three times "
         f"{STRIP_COLUMNS} columns (poolPointer: an engine's "
         "columns). A straight line through the narrowest and the widest strip gives the whole array; the error is the line's at the strip between "
-        f"them. Without an error the whole array was simulated. Each time is the shortest of {RUNS}. A pool array's engines are simulated in threads "
-        "of their own, as many as the machine has cores; so the time grows by steps with the engines, and the line has large errors.",
+        f"them. Without an error the whole array was simulated. Each time is the shortest of {RUNS}, in one thread. With more threads, dtof simulates "
+        "groups of columns, and a pool array's engines, at the same time.",
         "",
         "| read-out | pixels | model, s | error | RTL, s | error | memory of the widest strip, MB |",
         "|---|---:|---:|---:|---:|---:|---:|",
