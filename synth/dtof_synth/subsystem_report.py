@@ -7,14 +7,13 @@ import csv
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from . import subsystem_power
+from . import resizing, subsystem_power
 from .activity import STREAMING
 from .goals import Goal
 from .subsystem import CORNERS, MODES, TOP, Subsystem
 
 LINE_BUFFER = "dtof_line_buffer"
 MOST_LINE_BUFFER = 0.03  # of the array
-HOPELESS_NS = 0.4  # of synth/sta/resize.tcl
 OWN = "own cells"  # of dtof_subsystem, outside its modules
 TITLES = {TOP: "own registers and ports", "array_stand_in": "the array"}  # of what is no module of the subsystem
 
@@ -123,9 +122,9 @@ def _power_part_rows(found: Sequence[Subsystem]) -> list[list[str]]:
 def _pessimism(found: Sequence[Subsystem]) -> str:
     """What makes slacks smaller than they could be."""
     text = "Each module is mapped alone, so no logic is optimised across borders of modules."
-    hopeless = [one for one in found if min(one.late.values()) < -HOPELESS_NS]
+    hopeless = [one for one in found if not resizing.is_tried(min(one.late.values()))]
     if hopeless:
-        text += (f" Resizing gates is not tried where a path misses by more than {HOPELESS_NS:g} ns; so around "
+        text += (f" Resizing gates is not tried where a path misses by more than {resizing.HOPELESS_NS:g} ns; so around "
                  f"{', '.join(one.configuration.title for one in hopeless)} no gate is resized. A smaller miss than that may be one of the "
                  "flow, not of the RTL.")
     return text

@@ -8,8 +8,10 @@ from collections import Counter
 from pathlib import Path
 from unittest import mock
 
+from dtof_synth import resizing
 from dtof_synth.errors import FlowError
-from dtof_synth.layout import block, command, flow, picture, pins, repair, results, tools, wires
+from dtof_synth.layout import block, command, flow, picture, pins, repair, report, results, tools, wires
+from dtof_synth.run import OtherWires
 
 ROUTED = """Progress: Stage 2 total routes completed: 5507
 Failed net routes: 2
@@ -313,6 +315,12 @@ class Wires(unittest.TestCase):
         # Neither the beginning of that path, nor another layer's, nor what is not there.
         for box in ((119.8, 5.8, 120.2, 6.2), (43.8, 2.8, 44.2, 3.2), (1.0, 1.0, 1.4, 1.4)):
             self.assertEqual(repair.mend_lone_vias(DEF, {"Metal1 area < 20": [box]}), (DEF, 0))
+
+
+class Report(unittest.TestCase):
+    def test_an_array_that_is_not_resized_has_no_figures_of_resizing(self) -> None:
+        self.assertEqual(report._resized(OtherWires(0.1, -resizing.HOPELESS_NS, 0.02, 0.0005)), ["+0.020", "0.0005"])
+        self.assertEqual(report._resized(OtherWires(-0.2, -resizing.HOPELESS_NS - 0.001, -0.401, 0.0)), ["-", "-"])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
-from dtof_synth import array_stand_in, library, standard_cells, subsystem, subsystem_report, timing
+from dtof_synth import array_stand_in, library, resizing, standard_cells, subsystem, subsystem_report, timing
 from dtof_synth.activity import STREAMING
 from dtof_synth.array_stand_in import MODES, Port, Ports
 from dtof_synth.errors import FlowError
@@ -235,7 +235,7 @@ class Report(unittest.TestCase):
         self.assertNotIn("no gate is resized", subsystem_report.report(found[:1], "0" * 64))
 
     def test_the_page_has_the_limit_of_the_flow(self) -> None:
-        self.assertIn(f"set HOPELESS_NS {subsystem_report.HOPELESS_NS}\n", (ROOT / "synth" / "sta" / "resize.tcl").read_text(encoding="utf-8"))
+        self.assertIn(f"set HOPELESS_NS {resizing.HOPELESS_NS}\n", (ROOT / "synth" / "sta" / "resize.tcl").read_text(encoding="utf-8"))
 
     def test_the_csv_has_a_line_for_each_array(self) -> None:
         with tempfile.TemporaryDirectory() as folder:

@@ -7,6 +7,7 @@ import csv
 from dataclasses import dataclass
 from pathlib import Path
 
+from .. import resizing
 from ..run import OtherWires
 from ..standard_cells import WIRE_UM_PER_FANOUT
 from .flow import Result
@@ -51,6 +52,11 @@ def _row(result: Result, slacks: Slacks) -> list[str | int]:
             *(f"{result.seconds.get(step, 0):.0f}" for step in STEPS)]
 
 
+def _resized(wires: OtherWires) -> list[str]:
+    """Slack with margins after resizing, and the area that resizing adds; "-" where resizing is not tried."""
+    return [f"{wires.resized:+.3f}", f"{wires.added_mm2:.4f}"] if resizing.is_tried(wires.with_margins) else ["-", "-"]
+
+
 def write_csv(path: Path, results: list[Result], slacks: list[Slacks]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
@@ -93,8 +99,7 @@ def text(results: list[Result], slacks: list[Slacks], picture: str, command: str
                      "adds, mm2"],
                     [[one.title, f"{WIRE_UM_PER_FANOUT:.2f}", f"{slack.model:+.3f}", f"{slack.model_with_margins:+.3f}",
                       f"{one.wire_per_sink * one.area_shrink:.2f}", f"{slack.measured.slack:+.3f}",
-                      f"{slack.measured.with_margins:+.3f}", f"{slack.measured.resized:+.3f}",
-                      f"{slack.measured.added_mm2:.4f}"] for one, slack in zip(results, slacks)])
+                      f"{slack.measured.with_margins:+.3f}", *_resized(slack.measured)] for one, slack in zip(results, slacks)])
     seconds = _table(["block", *STEPS, "sum"],
                      [[_name(one), *(f"{one.seconds.get(step, 0):.0f}" for step in STEPS),
                        f"{sum(one.seconds.values()):.0f}"] for one in results])
@@ -116,5 +121,6 @@ def text(results: list[Result], slacks: list[Slacks], picture: str, command: str
         "## What such wires would cost the arrays", "",
         "The netlists of [timing.md](timing.md), 330 MHz, slow corner, once with the wire-load model that they were mapped for and "
         "once with the layout's length per sink, scaled by cell area, inside columns, engines and control. Setup slack in ns: with "
-        "the gates as they are, and with margins once they are resized for these wires, which makes the array larger.", "", arrays, "",
+        "the gates as they are, and with margins once they are resized for these wires, which makes the array larger. "
+        f"-: a path misses by more than {resizing.HOPELESS_NS:g} ns, so resizing is not tried.", "", arrays, "",
         "## Seconds", "", "Of one processor, so that other work on the machine does not count.", "", seconds, ""])
