@@ -17,7 +17,7 @@ module dtof_pool_pointer_array_bench #(
     parameter int CELL_SHIFT = 9,
     parameter int PARITY = 0,
     parameter int TIME_GATE = 0,  // the vectors have no gate
-    parameter int SECOND_TARGET = 0,  // the vectors have one target
+    parameter int SECOND_TARGET = 0,
     parameter int AMPLITUDE = 0,
     parameter int PRIOR = 0,
     parameter int ENGINE_COLUMNS = 2,
@@ -29,9 +29,11 @@ module dtof_pool_pointer_array_bench #(
 );
 
   localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH);
-  localparam int LIGHT_WIDTH = (AMPLITUDE != 0) ? dtof_pkg::POOL_BACKGROUND_WIDTH + dtof_pkg::pool_amplitude_width(ADVANTAGE_WIDTH) : 0;
-  localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS_PER_SRAM) + LIGHT_WIDTH + 16
-      + CONFIDENCE_WIDTH;
+  // Second target, amplitude and ambient, which no vector has.
+  localparam int RESULT_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET)
+      + dtof_pkg::pool_light_width(ADVANTAGE_WIDTH, AMPLITUDE);
+  localparam int UNCHECKED_WIDTH = RESULT_WIDTH - 16 - CONFIDENCE_WIDTH;
+  localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS_PER_SRAM) + RESULT_WIDTH;
 
 `ifdef NETLIST
   localparam int COMPARE = 1;
@@ -159,7 +161,7 @@ module dtof_pool_pointer_array_bench #(
       .ACQ_WIDTH       (ACQ_WIDTH),
       .FRACTION_BITS   (16 - NP),
       .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
-      .LIGHT_WIDTH     (LIGHT_WIDTH),
+      .UNCHECKED_WIDTH (UNCHECKED_WIDTH),
       .TURNS           ((SRAM_NUM < ENGINE_COLUMNS) ? SRAM_NUM : ENGINE_COLUMNS),
       .COMPARE         (COMPARE),
       .FRAMES          (FRAMES),

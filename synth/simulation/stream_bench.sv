@@ -16,7 +16,7 @@ module stream_bench #(
     parameter int ACQ_WIDTH = 16,
     parameter int FRACTION_BITS = 0,     // fractional bits of a result
     parameter int CONFIDENCE_WIDTH = 4,  // bits of a result's confidence
-    parameter int LIGHT_WIDTH = 0,  // bits of amplitude and ambient above the code, which are in no vector: RTL and netlist have the same
+    parameter int UNCHECKED_WIDTH = 0,  // bits above the code that are in no vector (second target, amplitude, ambient): RTL and netlist have the same
     parameter int TURNS = 1,  // number of turns in which the engines send their columns; 1 without engines
     parameter int COMPARE = 0,
     parameter int FRAMES = 1,            // lines of frames.txt
@@ -24,7 +24,7 @@ module stream_bench #(
     parameter int SEED = 1,
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int RESULT_WIDTH = LIGHT_WIDTH + NP + FRACTION_BITS + CONFIDENCE_WIDTH,
+    localparam int RESULT_WIDTH = UNCHECKED_WIDTH + NP + FRACTION_BITS + CONFIDENCE_WIDTH,
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH,
     localparam int OUTPUT_WIDTH = 14 + TDATA_WIDTH
 ) (
@@ -198,7 +198,7 @@ module stream_bench #(
 
   task check_result;
     logic [47:0] model;
-    logic [TDATA_WIDTH-1:0] wanted, light;
+    logic [TDATA_WIDTH-1:0] wanted, unchecked;
     begin
       if (result == RESULTS) begin
         $display("a result too many: %h", tdata);
@@ -208,8 +208,8 @@ module stream_bench #(
         wanted = (TDATA_WIDTH'(column) << (ROW_WIDTH + RESULT_WIDTH)) | (TDATA_WIDTH'(row) << RESULT_WIDTH)
             | (TDATA_WIDTH'(model[47:32]) << (FRACTION_BITS + CONFIDENCE_WIDTH))
             | (TDATA_WIDTH'(model[31:16]) << CONFIDENCE_WIDTH) | TDATA_WIDTH'(model[15:0]);
-        light = ((TDATA_WIDTH'(1) << LIGHT_WIDTH) - TDATA_WIDTH'(1)) << (RESULT_WIDTH - LIGHT_WIDTH);
-        wanted = wanted | (tdata & light);
+        unchecked = ((TDATA_WIDTH'(1) << UNCHECKED_WIDTH) - TDATA_WIDTH'(1)) << (RESULT_WIDTH - UNCHECKED_WIDTH);
+        wanted = wanted | (tdata & unchecked);
         if (tdata !== wanted || tlast !== (result == RESULTS - 1)) begin
           $display("result_tdata_o: %h, tlast %b; the model: %h, tlast %b (column %0d, row %0d)", tdata, tlast,
                    wanted, result == RESULTS - 1, column, row);
