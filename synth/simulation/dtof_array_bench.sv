@@ -18,7 +18,7 @@ module dtof_array_bench #(
     parameter int SIGNALLED_CLEAR = 0,
     parameter int PARITY = 0,
     parameter int TIME_GATE = 0,
-    parameter int RAW_HISTOGRAM = 0,  // the vectors have results only
+    parameter int RAW_HISTOGRAM = 0,  // the vectors have results only; 1 widens the confidence
     parameter int ACQ_WIDTH = 16,
     parameter int BROADCAST_STAGES = 2,
     parameter int FRAMES = 1,
@@ -27,8 +27,9 @@ module dtof_array_bench #(
 );
 
   localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM);
+  localparam int KEPT_CONFIDENCE_WIDTH = dtof_pkg::kept_confidence_width(CONFIDENCE_WIDTH, COUNT_WIDTH, RAW_HISTOGRAM);
   localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS_PER_SRAM)
-      + dtof_pkg::result_width(READOUT, NP, COUNT_WIDTH, FRACTION_BITS, CONFIDENCE_WIDTH);
+      + dtof_pkg::result_width(READOUT, NP, COUNT_WIDTH, FRACTION_BITS, KEPT_CONFIDENCE_WIDTH);
 
 `ifdef NETLIST
   localparam int COMPARE = 1;
@@ -131,7 +132,7 @@ module dtof_array_bench #(
       .SLOTS           (SLOTS),
       .ACQ_WIDTH       (ACQ_WIDTH),
       .FRACTION_BITS   (dtof_pkg::fraction_width(READOUT, FRACTION_BITS)),
-      .CONFIDENCE_WIDTH(dtof_pkg::confidence_width(READOUT, COUNT_WIDTH, CONFIDENCE_WIDTH)),
+      .CONFIDENCE_WIDTH(dtof_pkg::confidence_width(READOUT, COUNT_WIDTH, KEPT_CONFIDENCE_WIDTH)),
       .TURNS           (1),
       .COMPARE         (COMPARE),
       .FRAMES          (FRAMES),

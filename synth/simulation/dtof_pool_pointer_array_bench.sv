@@ -16,7 +16,7 @@ module dtof_pool_pointer_array_bench #(
     parameter int RIVAL_MOVES = 1,
     parameter int CELL_SHIFT = 9,
     parameter int PARITY = 0,
-    parameter int TIME_GATE = 0,  // the vectors have no gate
+    parameter int TIME_GATE = 0,
     parameter int SECOND_TARGET = 0,
     parameter int AMPLITUDE = 0,
     parameter int PRIOR = 0,
@@ -34,6 +34,10 @@ module dtof_pool_pointer_array_bench #(
       + dtof_pkg::pool_light_width(ADVANTAGE_WIDTH, AMPLITUDE);
   localparam int UNCHECKED_WIDTH = RESULT_WIDTH - 16 - CONFIDENCE_WIDTH;
   localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS_PER_SRAM) + RESULT_WIDTH;
+
+  // With TIME_GATE = 1: without the first and the last eighth of the range, as in dtof-vectors.
+  localparam logic [NP-1:0] GATE_BEGIN = NP'(1 << (NP - 3));
+  localparam logic [NP-1:0] GATE_END = NP'((1 << NP) - (1 << (NP - 3)));
 
 `ifdef NETLIST
   localparam int COMPARE = 1;
@@ -93,8 +97,8 @@ module dtof_pool_pointer_array_bench #(
       .sram_cfg_i     (start),
       .start_i        (start),
       .acq_num_i      (acq_num),
-      .gate_begin_i   ({NP{1'b0}}),
-      .gate_end_i     ({NP{1'b0}}),
+      .gate_begin_i   (GATE_BEGIN),
+      .gate_end_i     (GATE_END),
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),
@@ -124,8 +128,8 @@ module dtof_pool_pointer_array_bench #(
       .sram_cfg_i     (start),
       .start_i        (start),
       .acq_num_i      (acq_num),
-      .gate_begin_i   ({NP{1'b0}}),
-      .gate_end_i     ({NP{1'b0}}),
+      .gate_begin_i   (GATE_BEGIN),
+      .gate_end_i     (GATE_END),
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),

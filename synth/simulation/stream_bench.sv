@@ -45,7 +45,7 @@ module stream_bench #(
 
   localparam int BEATS_PER_ACQUISITION = PIXELS_PER_SRAM * SLOTS;
   localparam int RESULTS = PIXELS_PER_SRAM * SRAM_NUM;
-  localparam int CLOCKS_WITHOUT_PROGRESS = 20000;
+  localparam int CLOCKS_WITHOUT_PROGRESS = 20000 + 2 * PIXELS_PER_SRAM * (1 << NP);  // a histogram of 2^NP bins is cleared, and scanned
 
   // Files that dtof-vectors wrote.
 

@@ -107,6 +107,33 @@ void write_timestamps(const Print& print, const ArrayParameters& array, std::spa
   }
 }
 
+/// The array as the bench drives it: in each frame of a pool read-out with TIME_GATE = 1 the gate leaves out
+/// the first and the last eighth of the range.
+ArrayParameters as_in_bench(ArrayParameters array) {
+  ReadoutParameters& readout = array.readout;
+  if (is_pool_readout(readout.readout) && readout.time_gate) {
+    const std::int32_t eighth = 1 << (readout.np - 3);
+    readout.time_gate = CodeGate{.begin = eighth, .end = (1 << readout.np) - eighth};
+  }
+  return array;
+}
+
+/// The detections inside the gate.
+std::vector<ColumnStream> gated(std::span<const ColumnStream> columns, const CodeGate& gate) {
+  std::vector<ColumnStream> kept(columns.size());
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    for (int row = 0; row < columns[column].rows(); ++row) {
+      for (const Detection& detection : columns[column].row(row)) {
+        if (gate.contains(detection.timestamp)) {
+          kept[column].append(detection);
+        }
+      }
+      kept[column].finish_row();
+    }
+  }
+  return kept;
+}
+
 using Results = std::vector<std::vector<PixelResult>>;  ///< column, row
 
 Results results_of(const ArrayParameters& array, std::span<const ColumnStream> columns,
@@ -118,8 +145,10 @@ Results results_of(const ArrayParameters& array, std::span<const ColumnStream> c
 /// leaves.
 Results results_of(const ArrayParameters& array, std::span<const ColumnStream> columns,
                    std::uint32_t acquisitions, std::vector<PoolPrior>& priors) {
+  const std::vector<ColumnStream> kept =
+      array.readout.time_gate ? gated(columns, *array.readout.time_gate) : std::vector<ColumnStream>{};
   const auto column = [&](int index) -> const ColumnStream& {
-    return columns[static_cast<std::size_t>(index)];
+    return (kept.empty() ? columns : std::span(kept))[static_cast<std::size_t>(index)];
   };
   return run_pool_pointer(array.columns, column, array.readout.np, acquisitions,
                           pool_pointer_parameters(array.readout), &priors);
@@ -206,13 +235,14 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
   constexpr std::array<int, 4> kStalls = {0, 20, 60, 90};
   CounterRandom random(seed, static_cast<std::uint32_t>(RandomPurpose::kTestStream), 0, 0);
   VectorFiles files(folder);
-  ArrayParameters frame_array = array;
-  const bool has_prior = is_pool_readout(array.readout.readout) && array.readout.pool.prior;
+  ArrayParameters frame_array = as_in_bench(array);
+  const bool pool = is_pool_readout(array.readout.readout);
+  const bool has_prior = pool && array.readout.pool.prior;
   std::vector<PoolPrior> priors;
   std::size_t kind = 0;
   for (const std::uint32_t acquisitions : frames) {
     std::array<std::uint32_t, 3> settings{};
-    if (is_pool_readout(array.readout.readout)) {
+    if (pool) {
       frame_array.readout.pool.smooth = pick(random, 2) != 0;
       const bool with_template = pick(random, 2) != 0;
       frame_array.readout.pool.coarse_template = with_template ? bench_template() : PoolTemplate{};
@@ -279,7 +309,7 @@ void write_scene_vectors(const ArrayParameters& array, Scene scene, double klux,
       settings = {0, static_cast<std::uint32_t>(array.readout.code_count() - 1), 0};
     }
     files.write(array, acquisitions, settings, 0, 0, false, columns,
-                results_of(array, columns, acquisitions));
+                results_of(as_in_bench(array), columns, acquisitions));
   }
 }
 
