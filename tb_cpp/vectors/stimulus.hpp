@@ -24,8 +24,10 @@ std::vector<ColumnStream> random_columns(const ArrayParameters& array, std::uint
 /// of adversarial stream; every second column of a pool read-out sees one surface.
 ///  - frames.txt: a line per frame with acquisitions, three settings, two percentages and a flag. The
 ///    settings are gate begin, gate end, 0; for a pool read-out coarse_end, track_end, 1 for S1 plus 2 for
-///    the prior. The percentages are the shares of clocks in which the source pauses between acquisitions,
-///    and in which the sink stalls. The flag is 1 if the frame is run again and reset on the way.
+///    the prior plus 4 for a template. With TIME_GATE = 1 the gate of a pool read-out leaves out the first
+///    and the last eighth of the range. The percentages are the shares of clocks in which the source pauses
+///    between acquisitions, and in which the sink stalls. The flag is 1 if the frame is run again and reset
+///    on the way.
 ///  - timestamps.hex: a line per clock of an acquisition with the timestamps of all columns, column 0 in the
 ///    lowest bits.
 ///  - results.hex: a line per pixel, row by row, with code, fraction and confidence of four digits each.
