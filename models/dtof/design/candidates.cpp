@@ -42,8 +42,9 @@ void vary(std::vector<ReadoutParameters>& sets, std::span<const int> values, con
   sets = std::move(varied);
 }
 
-/// The read-out's own engine; half of it, where the sensor has more columns than that; and equal engines of at most kWidestEngine columns.
-/// An engine that is wider than the sensor is the same hardware as one of the sensor's columns.
+/// The read-out's own engine; half of it, where the sensor has more columns than that; and equal engines of
+/// at most kWidestEngine columns. An engine that is wider than the sensor is the same hardware as one of the
+/// sensor's columns.
 std::vector<int> engine_widths(const ReadoutParameters& base, const SensorModel& sensor) {
   const auto even = [](int columns) { return (columns + 1) / 2 * 2; };
   const int own = base.pool.engine_columns;
