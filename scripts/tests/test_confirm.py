@@ -140,11 +140,13 @@ class Covers(unittest.TestCase):
     FLOW = ("constraints/dtof.sdc", "constraints/margins.sdc", "synth/yosys/4_map.tcl", "synth/sta/timing.tcl", "synth/sram_sizes.csv",
             "synth/dtof_synth/run.py", "synth/dtof_synth/standard_cells.py", "synth/dtof_synth/sram_model.py", "synth/dtof_synth/canonical.py")
     ELABORATED = ("hdl/common/dtof_pkg.sv", "hdl/common/dtof_macros.svh", "hdl/thesis/dtof_controller.sv", "hdl/pool/dtof_pool_pair.sv",
-                  "configurations.toml", "readouts.toml")
+                  "configurations.toml", "readouts.toml", "synth/dtof_synth/configuration.py")
 
     def test_what_enters_by_elaboration_is_covered_and_nothing_of_the_flow(self) -> None:
         known = {name: report for name, report in reports.load(ROOT).items() if "synth/elaborated.py" in report.confirm}
-        self.assertEqual(set(known), {"synth", "power", "layout", "subsystem", "growth", "namings"})
+        self.assertEqual(set(known), {"synth", "power", "layout", "subsystem", "growth", "namings", "scale"})
+        # The simulation's time, which the page of `scale` has, depends on the RTL's text.
+        timed = {"scale": [file for file in self.ELABORATED if file.startswith("hdl/")]}
         before = {name: (reports.not_covered(report, SourceTree(ROOT)), reports.inputs(report, SourceTree(ROOT)).digest)
                   for name, report in known.items()}
         for file in (*self.FLOW, *self.ELABORATED):
@@ -152,7 +154,8 @@ class Covers(unittest.TestCase):
             for name, report in known.items():
                 with self.subTest(file=file, report=name):
                     self.assertNotEqual(reports.inputs(report, tree).digest, before[name][1])
-                    self.assertEqual(reports.not_covered(report, tree) == before[name][0], file in self.ELABORATED)
+                    self.assertEqual(reports.not_covered(report, tree) == before[name][0],
+                                     file in self.ELABORATED and file not in timed.get(name, ()))
 
     def test_each_report_is_confirmed_by_its_own_netlists_and_stimuli(self) -> None:
         for name, report in reports.load(ROOT).items():

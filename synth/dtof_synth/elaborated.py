@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`elaborated.py REPORT` prints all that a report of the synthesis takes from hdl/, configurations.toml and readouts.toml: what its Python reads
-of each configuration, and a digest of each elaborated netlist. While this is the same, a change of these files changes no figure of the report
-(scripts/reports.py confirm).
+"""`elaborated.py REPORT` prints all that a report of the synthesis takes from hdl/, configurations.toml, readouts.toml and configuration.py: what
+its Python reads of each configuration, and a digest of each elaborated netlist. While this is the same, a change of these files changes no figure
+of the report (scripts/reports.py confirm).
 
 The digest is that of the canonical netlist (canonical.py), from which the flow goes on. ABC's result depends on names and on the order of cells,
 which are in the digest, too. So an equal digest stands for an equal result.
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import hashlib
+import inspect
 import json
 import os
 import sys
@@ -18,7 +19,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from . import configuration, growth, library, mapping, run_inputs, scene_power, signalled_clear, sram_kit, standard_cells, subsystem, tools
+from . import configuration, growth, library, mapping, run_inputs, scale, scene_power, signalled_clear, sram_kit, standard_cells, subsystem, tools
 from . import technology as technologies
 from .canonical import canonical
 from .cli import ROOT, all_configurations
@@ -27,7 +28,7 @@ from .errors import FlowError
 
 BUILD = ROOT / "build" / "elaborated"
 Named = dict[str, Configuration]
-_MAKE_OTHER_REPORTS = {"scale.py"}  # of arrays that are not in configurations.toml
+_OF_ONE_REPORT = {"scale.py": "scale"}  # what other reports do not read
 
 
 def _layout(named: Named) -> list[Configuration]:
@@ -40,6 +41,11 @@ def _power(named: Named) -> list[Configuration]:
     return whole + [scene_power.small(item).with_parameters(f"{item.name}_small") for item in whole]
 
 
+def _scale(named: Named) -> list[Configuration]:
+    bases = [named[readout] for readout in scale.READOUTS]
+    return [item for base in bases for size in scale.SIZES for item in scale.parts(base, *size)] + [scale.array(base, *scale.WHOLE) for base in bases]
+
+
 # Configurations whose netlists a report's command makes.
 REPORTS: dict[str, Callable[[Named], list[Configuration]]] = {
     "synth": lambda named: [*named.values(), *signalled_clear.configurations(named)],
@@ -48,6 +54,7 @@ REPORTS: dict[str, Callable[[Named], list[Configuration]]] = {
     "subsystem": lambda named: [named[name] for name in subsystem.CONFIGURATIONS],
     "growth": lambda named: list({point.name: point for _, _, point in growth.sweep(named)}.values()),
     "namings": lambda named: [item for item in named.values() if not item.variant_of],
+    "scale": _scale,
 }
 
 
@@ -89,24 +96,40 @@ def _work(job: tuple[Configuration, Path, Path, bool]) -> str:
 
 # ---- What the flow's Python reads ------------------------------------------------------------------------
 
-def read_by_the_flow(root: Path) -> list[str]:
+def read_by_the_flow(root: Path, report: str) -> list[str]:
     """Parameters that the flow's Python names. What no file names enters a report by elaboration alone."""
-    return run_inputs.named_parameters(file for file in (root / "synth" / "dtof_synth").rglob("*.py") if file.name not in _MAKE_OTHER_REPORTS)
+    return run_inputs.named_parameters(file for file in (root / "synth" / "dtof_synth").rglob("*.py")
+                                       if _OF_ONE_REPORT.get(file.name, report) == report)
+
+
+def derived(item: Configuration) -> dict[str, str]:
+    """All that configuration.py derives from a configuration: each property, and each function of a configuration alone. "none": the read-out has
+    nothing like this."""
+    found = {name: getattr(item, name) for name, value in vars(Configuration).items() if isinstance(value, property) and name != "described"}
+    for name, function in inspect.getmembers(configuration, inspect.isfunction):
+        if function.__module__ == configuration.__name__ and [*inspect.signature(function).parameters] == ["configuration"]:
+            try:
+                found[name] = function(item)
+            except (FlowError, KeyError):
+                found[name] = "none"
+    return {name: str(value) for name, value in found.items()}
 
 
 def described(item: Configuration, parameters: Iterable[str]) -> str:
     """What the flow's Python reads of a configuration, in one line."""
     return json.dumps({"title": item.title, "variant_of": item.variant_of, "thesis_mm2": item.thesis_mm2, "note": item.note,
-                       **run_inputs.read_by_python(item, parameters)}, ensure_ascii=False)
+                       "simulation": item.simulation, "derived": derived(item), **run_inputs.read_by_python(item, parameters)}, ensure_ascii=False)
 
 
 def lines(report: str, root: Path, folder: Path, workers: int) -> list[str]:
-    """The output for a report."""
+    """The output for a report. Arrays of `scale` take too long to elaborate; their parameters are printed instead, and the RTL is not covered."""
     named = configuration.load(root / "configurations.toml")
     chosen = REPORTS[report](named)
-    parameters = read_by_the_flow(root)
+    parameters = read_by_the_flow(root, report)
     text = [f"sram {size.name} {' '.join(users)}" for size, users in sorted(technologies.needed_sizes(all_configurations(named)).items())]
     text += [f"configuration {item.name} {described(item, parameters)}" for item in chosen]
+    if report == "scale":
+        return text + [f"parameters {item.name} {json.dumps(item.rtl_parameters())}" for item in chosen]
     jobs = [(item, root, folder / item.name, False) for item in chosen]
     if report == "subsystem":
         jobs += [(item, root, folder / f"{item.name}_subsystem", True) for item in chosen]

@@ -5,9 +5,11 @@ import shutil
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from dtof_synth import configuration, elaborated, library, mapping, standard_cells, subsystem
 from dtof_synth.configuration import Configuration
+from dtof_synth.sram_model import Size
 from dtof_synth.technology import Technology
 
 from .partial import part_of
@@ -112,13 +114,26 @@ class AsTheFlow(unittest.TestCase):
 
 class Described(unittest.TestCase):
     def test_parameters_that_the_flow_reads_are_printed(self) -> None:
-        names = elaborated.read_by_the_flow(ROOT)
+        names = elaborated.read_by_the_flow(ROOT, "synth")
         self.assertLessEqual({"NP", "SRAM_NUM", "PIXELS_PER_SRAM", "SLOTS", "ENGINE_COLUMNS", "SIGNALLED_CLEAR"}, set(names))
         self.assertFalse({"POINTER_STEP", "WINDOW_CENTRED"} & set(names))  # which enter by elaboration alone
         line = elaborated.described(POINTER, names)
         self.assertEqual(elaborated.described(POINTER.with_parameters("ezpointer", WINDOW_CENTRED=1), names), line)
         self.assertNotEqual(elaborated.described(POINTER.with_parameters("ezpointer", SLOTS=3), names), line)
         self.assertIn('"memories": {"pointer": "sram_1r1w_3x14"}', line)
+
+    def test_what_the_module_of_configurations_derives_is_printed(self) -> None:
+        found = elaborated.derived(POOL)
+        self.assertLessEqual({"engines", "column_modules", "pixels", "memories", "engine_memories", "counted_macros", "bits_per_pixel",
+                              "pool_word_width"}, set(found))
+        self.assertEqual(elaborated.derived(POINTER)["pool_word_width"], "none")
+        line = elaborated.described(POOL, [])
+        wider = {"messages": Size(1, POOL["PIXELS_PER_SRAM"], 99)}
+        with mock.patch.object(configuration, "engine_memories", autospec=True, return_value=wider) as planted:
+            planted.__module__ = configuration.__name__
+            self.assertNotEqual(elaborated.described(POOL, []), line)
+        with mock.patch.object(Configuration, "column_modules", property(lambda item: 7)):
+            self.assertNotEqual(elaborated.described(POOL, []), line)
 
     def test_every_configuration_of_a_report_is_among_its_netlists(self) -> None:
         found = {report: [item.name for item in chosen(NAMED)] for report, chosen in elaborated.REPORTS.items()}
