@@ -103,11 +103,12 @@ def read_by_the_flow(root: Path, report: str) -> list[str]:
 
 
 def derived(item: Configuration) -> dict[str, str]:
-    """All that configuration.py derives from a configuration: each property, and each function of a configuration alone. "none": the read-out has
-    nothing like this."""
+    """All that configuration.py derives from a configuration: each property, and each public function of a configuration alone. "none": the
+    read-out has nothing like this."""
     found = {name: getattr(item, name) for name, value in vars(Configuration).items() if isinstance(value, property) and name != "described"}
     for name, function in inspect.getmembers(configuration, inspect.isfunction):
-        if function.__module__ == configuration.__name__ and [*inspect.signature(function).parameters] == ["configuration"]:
+        own = function.__module__ == configuration.__name__ and not name.startswith("_")
+        if own and [*inspect.signature(function).parameters] == ["configuration"]:
             try:
                 found[name] = function(item)
             except (FlowError, KeyError):

@@ -9,32 +9,13 @@ namespace {
 
 int ceiling(int value, int by) { return (value + by - 1) / by; }
 
-/// Bits that number so many labels.
-int label_bits(int labels) {
-  int bits = 1;
-  while (1 << bits < labels) {
-    ++bits;
-  }
-  return bits;
-}
-
 constexpr int kCandidateBits = 7;
+constexpr int kPositionBits = 16;
 
-int pool_pixel_width(const PoolPointerParameters& pool) {
-  constexpr int kMovingBits = 16;  // leader and rival's 7
-  constexpr int kRestingBits = 12;
-  const int label = label_bits(pool.labels);
-  const int track = pool.labels * pool.score_bits + (pool.offset_bits > 0 ? label + pool.offset_bits : 0);
-  const int point = pool.count_bits + (pool.rival_moves ? kMovingBits : kRestingBits) - pool.pointer_shift +
-                    (pool.rival_moves ? kCandidateBits : 2 * label);
-  return std::max(track, point);
-}
-
-/// Two pixels or a group's word.
+/// Bits of a half of the SRAM word of a pair of columns: two pixels of a column, or a group
+/// (dtof_pkg::pool_half_width).
 int pool_half_width(const PoolPointerParameters& pool) {
-  const int two_pixels = 2 * pool_pixel_width(pool);
-  const int background = std::clamp(two_pixels - kCandidateBits * pool.labels, 4, 6);
-  return std::max(two_pixels, kCandidateBits * pool.labels + background);
+  return std::max(2 * pool.word_bits(), kCandidateBits * pool.labels + pool.background_bits());
 }
 
 }  // namespace
@@ -84,7 +65,7 @@ std::vector<MacroSize> column_memories(const ArrayChoice& array) {
       const int groups = ceiling(rows, p.pool.group_size);
       const int pairs = ceiling(array.module_columns(), 2);
       const int half = pool_half_width(p.pool);
-      const int parts = half == 2 * pool_pixel_width(p.pool) ? 4 : 2;
+      const int parts = half == 2 * p.pool.word_bits() ? 4 : 2;
       return {{1, groups * (p.pool.group_size / 2) + ceiling(groups, 2), pairs * 2 * half, pairs * parts}};
     }
   }
@@ -96,8 +77,14 @@ std::vector<MacroSize> engine_memories(const ArrayChoice& array) {
     return {};
   }
   const PoolPointerParameters& pool = array.parameters.pool;
-  constexpr int kDecideBits = 20;
-  return {{1, array.rows, std::max(4 * pool.labels + 7 + pool.offset_bits, kDecideBits)}};
+  // Messages of choose with cell and offset chosen in the column to the left, or of decide with the winner
+  // there: its position, and its confidence if a group's word has significances (dtof_pool_engine.sv).
+  constexpr int kDecideMessageBits = 4;
+  constexpr int kConfidenceBits = 8;  // of advantages of 7 bits, without which there are no significances
+  const int choose = 4 * pool.labels + kCandidateBits + pool.offset_bits;
+  const int decide =
+      kDecideMessageBits + kPositionBits + (pool.significance_bits() > 0 ? kConfidenceBits : 0);
+  return {{1, array.rows, std::max(choose, decide)}};
 }
 
 double bits_per_pixel(const ArrayChoice& array) {

@@ -66,6 +66,25 @@ TEST(Estimate, MemoriesAreThoseOfTheFlowExactly) {
   }
 }
 
+// The sizes that dtof_pool_engine.sv asks for: synth/tests/test_configuration.py elaborates the same
+// parameters.
+TEST(Estimate, AnEngineStoresTheConfidenceOfTheColumnToTheLeftWithSignificances) {
+  ArrayChoice array;
+  array.parameters = ReadoutParameters::defaults(Readout::kPoolPointerLean);
+  array.rows = 39;
+  PoolPointerParameters& pool = array.parameters.pool;
+  const auto bits = [&] { return engine_memories(array).front().bits; };
+  EXPECT_EQ(bits(), 23);  // of choose, with four candidates
+  pool.labels = 2;
+  EXPECT_EQ(bits(), 20);
+  pool.count_bits = 7;
+  pool.rival_moves = true;
+  EXPECT_EQ(pool.significance_bits(), 3);
+  EXPECT_EQ(bits(), 28);
+  pool.count_bits = 6;
+  EXPECT_EQ(bits(), 20);
+}
+
 TEST(Estimate, AreaIsThatOfTheFlowWithinTheStatedError) {
   const CsvTable table(kReports / "area.csv");
   const std::vector<std::string> names = table.texts("configuration");
