@@ -12,6 +12,7 @@ from .errors import FlowError
 from .sram_model import Size
 
 SCRATCH_PARITIES = 2  # dtof_pkg::POOL_SCRATCH_PARITIES
+CONFIDENCE_WIDTH = 8  # dtof_pkg::pool_confidence_width of the advantages that significances need
 
 
 @dataclass(frozen=True)
@@ -114,18 +115,30 @@ def pool_pixel_width(configuration: Configuration) -> int:
 def pool_word_width(configuration: Configuration) -> int:
     """Bits of a half of the SRAM word: two pixel words or a group word (dtof_pkg::pool_half_width, pool_group_width)."""
     labels = configuration["LABELS"]
-    two_pixels = 2 * pool_pixel_width(configuration)
-    background = min(max(two_pixels - 7 * labels, 4), 6)
-    return max(two_pixels, 7 * labels + background)
+    return max(2 * pool_pixel_width(configuration), 7 * labels + _background_width(configuration))
+
+
+def _background_width(configuration: Configuration) -> int:
+    """Bits of the background in a group's word (dtof_pkg::pool_background_width)."""
+    return min(max(2 * pool_pixel_width(configuration) - 7 * configuration["LABELS"], 4), 6)
+
+
+def _has_significances(configuration: Configuration) -> bool:
+    """Whether a group's word has the candidates' significances (dtof_pkg::pool_significance_width)."""
+    labels = configuration["LABELS"]
+    used = 7 * labels + _background_width(configuration) + 1 + (labels if configuration["PRIOR"] else 0)
+    room = 2 * pool_pixel_width(configuration) - used
+    return room >= 2 * labels and configuration["ADVANTAGE_WIDTH"] == 7 and configuration["RIVAL_MOVES"] == 1
 
 
 def engine_memories(configuration: Configuration) -> dict[str, Size]:
     """The SRAMs of one engine."""
     if not configuration.is_pool:
         return {}
-    # Messages of choose with cell and offset chosen in the column to the left, or of decide with the position there.
+    # Messages of choose with cell and offset chosen in the column to the left, or of decide with the winner there: its position, and its
+    # confidence if a group's word has significances (dtof_pool_engine).
     choose = 4 * configuration["LABELS"] + 7 + configuration["OFFSET_BITS"]
-    decide = 2 * 2 + 16
+    decide = 2 * 2 + 16 + (CONFIDENCE_WIDTH if _has_significances(configuration) else 0)
     return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(choose, decide) + SCRATCH_PARITIES * configuration["PARITY"])}
 
 

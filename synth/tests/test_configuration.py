@@ -3,7 +3,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import configuration, goals, growth, readouts, sram_kit, technology
+from dtof_synth import configuration, elaborated, goals, growth, readouts, sram_kit, technology
 from dtof_synth.configuration import bits_per_pixel, memories
 from dtof_synth.errors import FlowError
 from dtof_synth.run import Result
@@ -49,6 +49,19 @@ class Configurations(unittest.TestCase):
         self.assertEqual(configuration.bin_width(some), int.bit_length(memories(some)["histogram"].words // some["PIXELS_PER_SRAM"]) - 1)
         with self.assertRaisesRegex(FlowError, "ezpointer: the read-out has no histogram"):
             configuration.bin_width(self.named["ezpointer"])
+
+    def test_the_engines_sram_is_the_one_that_the_rtl_asks_for(self) -> None:
+        # Widths of the messages of decide (20), with confidences (28), and of choose (4 for each candidate, cell and offset). Elaboration stops
+        # at a size that is not listed.
+        lean = self.named["poolpointer_lean"].with_parameters("lean", SRAM_NUM=4, PIXELS_PER_SRAM=8, ENGINE_COLUMNS=4, COUNT_WIDTH=4)
+        significances = {"LABELS": 2, "ADVANTAGE_WIDTH": 7, "RIVAL_MOVES": 1, "POINTER_SHIFT": 2}
+        for bits, changes in ((20, {"LABELS": 2}), (28, significances), (28, significances | {"PRIOR": 1}), (30, significances | {"PARITY": 1}),
+                              (20, significances | {"ADVANTAGE_WIDTH": 4}), (20, significances | {"RIVAL_MOVES": 0}),
+                              (31, significances | {"LABELS": 6, "SCORE_BITS": 2})):
+            with self.subTest(changes=changes), tempfile.TemporaryDirectory() as folder:
+                item = lean.with_parameters("engine", **changes)
+                self.assertEqual(configuration.engine_memories(item), {"messages": Size(1, 8, bits)})
+                elaborated.elaborate(item, ROOT, Path(folder))
 
     def test_engines_have_time(self) -> None:
         for name, columns in (("poolpointer", 34), ("poolpointer_lean", 50)):

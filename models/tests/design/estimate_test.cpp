@@ -81,7 +81,7 @@ TEST(Estimate, AnEngineStoresTheConfidenceOfTheColumnToTheLeftWithSignificances)
   pool.rival_moves = true;
   EXPECT_EQ(pool.significance_bits(), 3);
   EXPECT_EQ(bits(), 28);
-  pool.count_bits = 6;
+  pool.count_bits = 4;
   EXPECT_EQ(bits(), 20);
 }
 
