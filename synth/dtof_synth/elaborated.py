@@ -97,9 +97,10 @@ def _work(job: tuple[Configuration, Path, Path, bool]) -> str:
 # ---- What the flow's Python reads ------------------------------------------------------------------------
 
 def read_by_the_flow(root: Path, report: str) -> list[str]:
-    """Parameters that the flow's Python names. What no file names enters a report by elaboration alone."""
+    """Parameters that the flow's Python names, without configuration.py, whose results are printed. What no file names enters a report by
+    elaboration alone."""
     return run_inputs.named_parameters(file for file in (root / "synth" / "dtof_synth").rglob("*.py")
-                                       if _OF_ONE_REPORT.get(file.name, report) == report)
+                                       if file.name != "configuration.py" and _OF_ONE_REPORT.get(file.name, report) == report)
 
 
 def derived(item: Configuration) -> dict[str, str]:
