@@ -5,6 +5,7 @@ A quotation is the indented block behind `<!-- printed by dtof ... -->`: what th
 width of tables do not matter, and between two paragraphs of the quotation the command may print more.
 """
 
+import os
 import re
 import shutil
 import subprocess
@@ -22,6 +23,9 @@ EXAMPLE = re.compile(r"^    ((?:build/cpp/|/usr/bin/python3 |echo )(?:.*\\\n)*.*
 # Those of the main job, which `make publish` copies: no example writes there.
 MAIN_JOB = re.findall(r"^ *run_once (\w+)", (ROOT / "scripts" / "simulate.sh").read_text(encoding="utf-8"), re.MULTILINE)
 PROGRAMS = ROOT / "build" / "cpp"
+# Takes three minutes. The long lane (.ci/long) runs it; its answer is no input of another example.
+LONG = re.compile(r"\bdtof design (?!.*--quick)")
+LONG_LANE = "DTOF_TEST_LONG" in os.environ
 # Their commands need the files that they add: make test-adding runs those of the first in a clone that has them,
 # test_adding_a_rival compiles those of the second.
 ADDING = {ROOT / "docs" / "user" / name for name in ("adding_a_readout.md", "adding_a_rival.md")}
@@ -99,6 +103,8 @@ class Examples(unittest.TestCase):
             quoted = quotations(document.read_text(encoding="utf-8"))
             for command in commands:
                 with self.subTest(document=document.name, command=command):
+                    if LONG.search(command) and not LONG_LANE:
+                        self.skipTest("takes minutes, in .ci/long alone")
                     done = runs.run(command, folder)
                     self.assertEqual(done.returncode, 0, done.stderr[-2000:])
                     for main_job in MAIN_JOB:

@@ -30,6 +30,19 @@ bool has_confidence(const ReadoutParameters& parameters) {
   return !is_pointer_readout(parameters.readout) || parameters.confidence_width > 0;
 }
 
+/// Columns of the engines of a comparison: the fewest that the pool read-outs among these have by default; 1
+/// without any.
+int engine_columns(std::span<const ReadoutParameters> readouts) {
+  int fewest = 0;
+  for (const ReadoutParameters& one : readouts) {
+    if (is_pool_readout(one.readout)) {
+      const int own = ReadoutParameters::defaults(one.readout, one.np).pool.engine_columns;
+      fewest = fewest == 0 ? own : std::min(fewest, own);
+    }
+  }
+  return std::max(fewest, 1);
+}
+
 /// Adds a frame of one scene.
 void add(FrameCounts& counts, const MeasuredFrame& frame, const FrameTruth& truth,
          std::optional<int> threshold) {
@@ -47,13 +60,14 @@ void add(FrameCounts& counts, const MeasuredFrame& frame, const FrameTruth& trut
 class SlotsBench {
  public:
   SlotsBench(const BenchSettings& settings, std::vector<ReadoutParameters> readouts,
-             const BenchEffort& effort, Progress* progress)
+             const BenchEffort& effort, BenchTables& tables, Progress* progress)
       : settings_(settings),
         sensor_(with_slots(settings.sensor, readouts.front().slots)),
         readouts_(std::move(readouts)),
         effort_(effort),
+        tables_(tables),
         progress_(progress),
-        region_{bench_columns(sensor_, effort.pixels), {0, sensor_.rows}},
+        region_{bench_columns(sensor_, effort.pixels, engine_columns(readouts_)), {0, sensor_.rows}},
         engine_(
             {.threads = settings.threads, .own_rows = true, .observer = [](std::size_t, std::size_t) {}}) {
     for (const Scene scene : settings.scenes) {
@@ -112,8 +126,7 @@ class SlotsBench {
 
   void add_light(double klux, const std::vector<Sky>& skies, std::vector<ReadoutScore>& scores) {
     std::vector<LightCounts> counts(readouts_.size());
-    const std::vector<RangeConverter> tables =
-        flat_tables(sensor_, klux, Fidelity::kExact, readouts_, settings_.seed, settings_.threads);
+    const std::vector<RangeConverter> tables = tables_.of(sensor_, klux, readouts_, settings_);
     for (int frame = 0; frame < effort_.frames; ++frame) {
       std::vector<FrameCounts> sums(readouts_.size());
       for (const TargetMap& targets : targets_) {
@@ -145,6 +158,7 @@ class SlotsBench {
   SensorModel sensor_;
   std::vector<ReadoutParameters> readouts_;
   BenchEffort effort_;
+  BenchTables& tables_;
   Progress* progress_;
   Region region_;
   ModelEngine engine_;
@@ -174,26 +188,48 @@ const LightScore& ReadoutScore::worst() const {
                                    [](const LightScore& light) { return light.above_3_percent.value; });
 }
 
-std::vector<int> bench_columns(const SensorModel& sensor, double pixels) {
+std::vector<int> bench_columns(const SensorModel& sensor, double pixels, int engine_columns) {
   constexpr int kParts = 3;
-  const double wanted = std::max(pixels / sensor.rows / kParts, 1.0);
+  const double wanted = std::min(pixels / sensor.rows / kParts, static_cast<double>(sensor.columns));
+  const int of_part = engine_columns * std::max(static_cast<int>(wanted / engine_columns), 1);
   std::set<int> columns;
-  const int of_part = wanted >= sensor.columns ? sensor.columns : static_cast<int>(wanted);
-  for (int part = 0; part < kParts; ++part) {
+  for (int part = 0; part < kParts && kParts * of_part < sensor.columns; ++part) {
     const int middle = sensor.columns * (2 * part + 1) / (2 * kParts);
-    for (int i = 0; i < of_part; ++i) {
-      const int column = middle - of_part / 2 + i;
-      if (kParts * of_part < sensor.columns && column >= 0 && column < sensor.columns) {
-        columns.insert(column);
-      }
-    }
-  }
-  if (kParts * of_part >= sensor.columns) {
-    for (int column = 0; column < sensor.columns; ++column) {
+    const int first = (middle - of_part / 2 + engine_columns / 2) / engine_columns * engine_columns;
+    for (int column = first; column < std::min(first + of_part, sensor.columns); ++column) {
       columns.insert(column);
     }
   }
+  for (int column = 0; kParts * of_part >= sensor.columns && column < sensor.columns; ++column) {
+    columns.insert(column);
+  }
   return {columns.begin(), columns.end()};
+}
+
+std::vector<RangeConverter> BenchTables::of(const SensorModel& sensor, double klux,
+                                            std::span<const ReadoutParameters> readouts,
+                                            const BenchSettings& settings) {
+  const auto entry = [&](const ReadoutParameters& one) {
+    return std::ranges::find_if(entries_, [&](const Entry& e) { return e.klux == klux && e.readout == one; });
+  };
+  std::vector<ReadoutParameters> missing;
+  for (const ReadoutParameters& one : readouts) {
+    if (entry(one) == entries_.end()) {
+      missing.push_back(one);
+    }
+  }
+  if (!missing.empty()) {
+    std::vector<RangeConverter> fitted =
+        flat_tables(sensor, klux, Fidelity::kExact, missing, settings.seed, settings.threads);
+    for (std::size_t i = 0; i < missing.size(); ++i) {
+      entries_.push_back({klux, missing[i], std::move(fitted[i])});
+    }
+  }
+  std::vector<RangeConverter> tables;
+  for (const ReadoutParameters& one : readouts) {
+    tables.push_back(entry(one)->table);
+  }
+  return tables;
 }
 
 std::vector<ReadoutParameters> distinct_readouts(std::span<const ReadoutParameters> readouts) {
@@ -208,14 +244,16 @@ std::vector<ReadoutParameters> distinct_readouts(std::span<const ReadoutParamete
 
 std::vector<ReadoutScore> run_bench(const BenchSettings& settings,
                                     std::span<const ReadoutParameters> readouts, const BenchEffort& effort,
-                                    Progress* progress) {
+                                    Progress* progress, BenchTables* tables) {
+  BenchTables own_tables;
   std::map<int, std::vector<ReadoutParameters>> by_slots;
   for (const ReadoutParameters& one : distinct_readouts(readouts)) {
     by_slots[one.slots].push_back(one);
   }
   std::map<int, std::vector<ReadoutScore>> found;
   for (const auto& [slots, together] : by_slots) {
-    found[slots] = SlotsBench(settings, together, effort, progress).run();
+    found[slots] =
+        SlotsBench(settings, together, effort, tables != nullptr ? *tables : own_tables, progress).run();
   }
   std::vector<ReadoutScore> scores;
   for (const ReadoutParameters& one : readouts) {

@@ -9,6 +9,7 @@
 
 #include "dtof/core/parameters.hpp"
 #include "dtof/core/progress.hpp"
+#include "dtof/host/range_converter.hpp"
 #include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/photon/target_map.hpp"
@@ -60,18 +61,39 @@ struct BenchEffort {
   bool detection = false;
 };
 
-/// Returns three groups of columns, centred in the thirds of the array, that hold about `pixels` pixels
-/// together; all columns if the array has no more.
-std::vector<int> bench_columns(const SensorModel& sensor, double pixels);
+/// Returns three groups of columns, near the middles of the thirds of the array, that hold about `pixels`
+/// pixels together; all columns if the array has no more. Each group has whole engines of `engine_columns`
+/// columns, at least one: a model reads an engine's columns together.
+std::vector<int> bench_columns(const SensorModel& sensor, double pixels, int engine_columns = 1);
+
+/// Look-up tables from flat targets, by light and read-out. A comparison in further frames needs no new
+/// ones. Not for several threads at once.
+class BenchTables {
+ public:
+  /// The tables of these read-outs, in order; fits those that are not yet there. The sensor, but for its
+  /// SLOTS, the seed and the number of threads are the same at each call.
+  [[nodiscard]] std::vector<RangeConverter> of(const SensorModel& sensor, double klux,
+                                               std::span<const ReadoutParameters> readouts,
+                                               const BenchSettings& settings);
+
+ private:
+  struct Entry {
+    double klux;
+    ReadoutParameters readout;
+    RangeConverter table;
+  };
+  std::vector<Entry> entries_;
+};
 
 /// Returns the read-outs without repetitions, in order.
 std::vector<ReadoutParameters> distinct_readouts(std::span<const ReadoutParameters> readouts);
 
 /// Returns the score of every read-out; equal ones are read once. Read-outs with equal SLOTS get the same
-/// photons. The models read the exact photon source and use look-up tables from flat targets. Intervals need
-/// at least two frames; with one frame they assume independent pixels.
+/// photons. The models read the exact photon source and use look-up tables from flat targets, which are taken
+/// from `tables`, if given, or added there. Intervals need at least two frames; with one frame they assume
+/// independent pixels.
 std::vector<ReadoutScore> run_bench(const BenchSettings& settings,
                                     std::span<const ReadoutParameters> readouts, const BenchEffort& effort,
-                                    Progress* progress = nullptr);
+                                    Progress* progress = nullptr, BenchTables* tables = nullptr);
 
 }  // namespace dtof

@@ -92,7 +92,7 @@ std::unique_ptr<Progress> make_progress(const DesignRequest& request, const std:
 /// Scores of the options at these places.
 std::vector<ReadoutScore> read(const DesignRequest& request, const std::vector<DesignOption>& options,
                                const std::vector<std::size_t>& places, const BenchEffort& effort,
-                               const std::string& title) {
+                               BenchTables& tables, const std::string& title) {
   const BenchSettings& bench = request.bench;
   const std::size_t lights = bench.klux.size();
   const std::vector<ReadoutParameters> parameters = parameters_of(options, places);
@@ -100,7 +100,7 @@ std::vector<ReadoutScore> read(const DesignRequest& request, const std::vector<D
       request, title,
       distinct_readouts(parameters).size() * lights *
           (bench.scenes.size() * static_cast<std::size_t>(effort.frames) + (effort.detection ? 2 : 0)));
-  return run_bench(bench, parameters, effort, progress.get());
+  return run_bench(bench, parameters, effort, progress.get(), &tables);
 }
 
 /// The scores of several frames, but P_d and P_fa as they were.
@@ -115,7 +115,8 @@ void replace_errors(ReadoutScore& score, ReadoutScore by) {
 
 /// Compares the contenders in four times as many frames, again and again, until the frames settle the choice
 /// or the budget is spent. `effort`: of the comparison before.
-void hold_contest(const DesignRequest& request, BenchEffort effort, DesignResult& result) {
+void hold_contest(const DesignRequest& request, BenchEffort effort, BenchTables& tables,
+                  DesignResult& result) {
   constexpr int kMoreFrames = 4;
   effort.detection = false;
   std::vector<std::size_t> left = contenders(result.options, request.limits);
@@ -132,7 +133,7 @@ void hold_contest(const DesignRequest& request, BenchEffort effort, DesignResult
     }
     work *= 1.0 - frames / most;
     effort.frames = frames;
-    std::vector<ReadoutScore> scores = read(request, result.options, left, effort, "contenders");
+    std::vector<ReadoutScore> scores = read(request, result.options, left, effort, tables, "contenders");
     for (std::size_t i = 0; i < left.size(); ++i) {
       replace_errors(*result.options[left[i]].score, std::move(scores[i]));
     }
@@ -269,9 +270,10 @@ DesignResult run_design(const DesignRequest& request) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i] = i;
   }
+  BenchTables tables;
   std::vector<ReadoutScore> screened =
       read(request, result.options, all,
-           {.pixels = pixels_of(request.screening_work, number_of(result.options, all), request, 1)},
+           {.pixels = pixels_of(request.screening_work, number_of(result.options, all), request, 1)}, tables,
            "parameters");
   for (std::size_t i = 0; i < all.size(); ++i) {
     result.options[i].screened = std::move(screened[i]);
@@ -290,11 +292,11 @@ DesignResult run_design(const DesignRequest& request) {
       .pixels = pixels_of(request.final_work, number_of(result.options, best), request, result.frames),
       .frames = result.frames,
       .detection = request.detection};
-  std::vector<ReadoutScore> scores = read(request, result.options, best, effort, "read-outs");
+  std::vector<ReadoutScore> scores = read(request, result.options, best, effort, tables, "read-outs");
   for (std::size_t i = 0; i < best.size(); ++i) {
     result.options[best[i]].score = std::move(scores[i]);
   }
-  hold_contest(request, effort, result);
+  hold_contest(request, effort, tables, result);
   add_rivals(request, effort, result);
   result.recommendation = recommend(result.options, request.limits);
   result.left_out = left_out(candidates, request.limits);

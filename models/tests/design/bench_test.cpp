@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "dtof/sensor/default_parameters.hpp"
 #include "dtof/sensor/preset.hpp"
@@ -44,6 +47,49 @@ TEST(Bench, ColumnsAreAllOrThoseOfThreeParts) {
   EXPECT_EQ(columns, (std::vector<int>{5, 6, 17, 18, 29, 30}));
   sensor.columns = 2;
   EXPECT_EQ(bench_columns(sensor, 1).size(), 2U);
+}
+
+TEST(Bench, ColumnsAreThoseOfWholeEngines) {
+  SensorModel sensor = parse_preset("thesis");
+  const auto ranges = [&](double pixels, int engine_columns) {
+    std::vector<std::pair<int, int>> found;
+    for (const int column : bench_columns(sensor, pixels, engine_columns)) {
+      if (found.empty() || column != found.back().second) {
+        found.emplace_back(column, column);
+      }
+      ++found.back().second;
+    }
+    return found;
+  };
+  using Ranges = std::vector<std::pair<int, int>>;
+  EXPECT_EQ(ranges(160 * 6, 34), (Ranges{{0, 34}, {68, 102}, {136, 170}}));
+  EXPECT_EQ(ranges(160 * 150, 34), (Ranges{{0, 34}, {68, 102}, {136, 170}}));
+  EXPECT_EQ(ranges(160 * 60, 10), (Ranges{{20, 40}, {90, 110}, {160, 180}}));
+  EXPECT_EQ(ranges(160 * 6, 100), (Ranges{{0, 200}}));
+  sensor.columns = 110;  // the last engine has fewer columns
+  EXPECT_EQ(ranges(160 * 3, 30), (Ranges{{0, 60}, {90, 110}}));
+}
+
+TEST(Bench, TablesAreFittedOnceForEachLightAndReadout) {
+  const BenchSettings settings{.sensor = small_sensor(), .scenes = {Scene::kRoom}, .klux = {2.0}};
+  const std::vector<ReadoutParameters> readouts = {default_parameters(Readout::kEzPointer, settings.sensor),
+                                                   default_parameters(Readout::kSifh, settings.sensor)};
+  const auto above = [&](std::span<const ReadoutParameters> some, BenchTables* tables) {
+    return run_bench(settings, some, {.frames = 2}, nullptr, tables).back().worst().above_3_percent.value;
+  };
+  const double first = above(readouts, nullptr);
+  BenchTables tables;
+  EXPECT_EQ(above(std::span(readouts).last(1), &tables), first);
+  EXPECT_EQ(above(readouts, &tables), first);
+  EXPECT_EQ(above(readouts, &tables), first);
+  // A table of another distance shows that the tables are those that were kept.
+  const auto before = tables.of(settings.sensor, 2.0, readouts, settings);
+  SensorModel farther = settings.sensor;
+  farther.integration_time_s *= 2.0;
+  const auto kept = tables.of(farther, 2.0, readouts, settings);
+  const auto fitted = tables.of(farther, 50.0, readouts, settings);
+  EXPECT_EQ(kept.back().distance(300.0), before.back().distance(300.0));
+  EXPECT_NE(fitted.back().distance(300.0), before.back().distance(300.0));
 }
 
 TEST(Bench, MeasuresTheKnownErrorsOfTheReadouts) {

@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -46,6 +47,11 @@ using test::bytes_of;
 /// Rows of 8 histograms of 1024 numbers of 64 bits: 64 KiB each, beyond 4 GiB together.
 constexpr std::uint64_t kLongRows = (std::uint64_t{1} << 16U) + 3;
 constexpr std::uint64_t kLongBytes = kLongRows << 16U;
+
+/// True in the long lane (docs/reference/testplan.md).
+bool is_long_lane() { return std::getenv("DTOF_TEST_LONG") != nullptr; }
+
+constexpr const char* kLongLane = "reads each of 4 GiB, in .ci/long alone";
 
 std::string long_header() { return test::npy_begin("<f8", fmt::format("({}, 8, 1024)", kLongRows)); }
 
@@ -202,6 +208,9 @@ class LongFileTest : public ::testing::Test {
 };
 
 TEST_F(LongFileTest, TimeTagsBeyond4GiBAreCounted) {
+  if (!is_long_lane()) {
+    GTEST_SKIP() << kLongLane;
+  }
   constexpr std::uint64_t kRecords = kFourGiB / 4 + 1000;
   const std::uint64_t before = held();
   expect_read_to_its_end("a.ptu", ptu_header(kRecords), kRecords);
@@ -292,6 +301,9 @@ TEST_F(LongFileTest, ADeflatedArrayBeyondMemoryIsReadForwardAlone) {
 
 // Text with holes is no text: the lines are those of gzip members that repeat.
 TEST_F(LongFileTest, LinesBeyond4GiBAreReadAndCounted) {
+  if (!is_long_lane()) {
+    GTEST_SKIP() << kLongLane;
+  }
   constexpr std::size_t kLine = std::size_t{1} << 16U;
   constexpr std::size_t kLinesOfMember = 1024;
   constexpr std::size_t kMembers = kFourGiB / (kLine * kLinesOfMember);
@@ -354,6 +366,9 @@ void write_last_bin(hid_t dataset) {
 }
 
 TEST_F(LongFileTest, AnHdf5ArrayBeyond4GiBStaysInItsFile) {
+  if (!is_long_lane()) {
+    GTEST_SKIP() << kLongLane;
+  }
   const hid_t file = H5Fcreate(path("a.h5").c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
   const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
   H5Pset_alloc_time(layout, H5D_ALLOC_TIME_EARLY);  // the place is taken, and nothing is written into it
