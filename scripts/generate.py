@@ -278,7 +278,7 @@ def column_files(text: str, table: Table) -> str:
 
 
 def defaults(text: str, table: Table, found: limits.Limits) -> str:
-    """The page of parameters with a table for each top."""
+    """The page of parameters with a table for each array and one for dtof_subsystem."""
     for top in table.tops.values():
         begin = PARAMETERS_BEGIN.format(top.name)
         if text.count(begin) != 1:
@@ -298,7 +298,9 @@ def defaults(text: str, table: Table, found: limits.Limits) -> str:
             others = [f"{value} for {' and '.join(titles)}" for value, titles in values.items() if value != usual]
             lines.append(limits.page_row(found, table, top.name, name, "; ".join([str(usual), *others])))
         text = head + begin + "\n".join(lines) + "\n" + PARAMETERS_END + rest.split(PARAMETERS_END, 1)[1]
-    return text
+    lines = ["| parameter | legal | default | meaning |", "|---|---|---|---|", *limits.subsystem_rows(found)]
+    head, rest = text.split(PARAMETERS_BEGIN.format(limits.SUBSYSTEM))
+    return head + PARAMETERS_BEGIN.format(limits.SUBSYSTEM) + "\n".join(lines) + "\n" + PARAMETERS_END + rest.split(PARAMETERS_END, 1)[1]
 
 
 def rtl_of(module: str) -> str:

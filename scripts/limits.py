@@ -110,6 +110,7 @@ class Limit:
     untried: list[str] = field(default_factory=list)
     used_by: str = ""
     meaning: str = ""
+    default: str = ""
     page: str = ""
 
     @property
@@ -306,3 +307,15 @@ def page_row(limits: Limits, table: Table, top: str, parameter: str, default: st
     meaning = next((limit.meaning for limit in found if limit.meaning), table.parameters[parameter].help)
     used = f" {users(limits, table, top, parameter)} |" if top == ARRAY else ""
     return f"| `{parameter}` | {legal} | {default} | {limits.units.get(parameter, '-')} |{used} {meaning} |"
+
+
+def subsystem_rows(limits: Limits) -> list[str]:
+    """The rows of the page for dtof_subsystem: its own parameters, then those of the arrays that have narrower limits there."""
+    by_parameter: dict[str, list[Limit]] = {}
+    for limit in limits.of(SUBSYSTEM):
+        by_parameter.setdefault(limit.parameter, []).append(limit)
+    rows = []
+    for parameter, found in by_parameter.items():
+        default = found[0].default or "the array's"
+        rows.append(f"| `{parameter}` | {'; '.join(limit.legal for limit in found)} | {default} | {found[0].meaning or 'as in the array'} |")
+    return rows

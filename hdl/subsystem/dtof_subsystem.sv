@@ -151,6 +151,7 @@ module dtof_subsystem #(
   `DTOF_REQUIRE(g_illegal_source, SOURCE_WAITS == 0 || SOURCE_WAITS == 1, "dtof_subsystem: SOURCE_WAITS must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_parity, PARITY == 0 || PARITY == 1, "dtof_subsystem: PARITY must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_self_test, SELF_TEST == 0 || SELF_TEST == 1, "dtof_subsystem: SELF_TEST must be 0 or 1")
+  `DTOF_REQUIRE(g_illegal_raster_order, RASTER_ORDER == 0 || RASTER_ORDER == 1, "dtof_subsystem: RASTER_ORDER must be 0 or 1")
 
   // Commands and settings.
   logic start, flush, flushes, abort, continuous, second, amplitude, raw, short_words, smooth, prior, self_test, shot_reseed;

@@ -88,7 +88,7 @@ class OfItself(unittest.TestCase):
             given = {name: int(value) for name, value in re.findall(r"(\w+)=(-?\d+)", settings)}
             number = given.pop("READOUT", 64 if "pool" in top else 0)
             name = next((readout.name for readout in TABLE.readouts.values() if readout.number == number), "poolpointer")
-            values = {"BUFFER_LINES": 2, "CLOCK_WAITS": 1, "SOURCE_WAITS": 1, "PARITY": 0, "SELF_TEST": 0}
+            values = {"BUFFER_LINES": 2, "CLOCK_WAITS": 1, "SOURCE_WAITS": 1, "RASTER_ORDER": 0, "PARITY": 0, "SELF_TEST": 0}
             values |= {parameter: TABLE.default(name, parameter, given.get("NP", 10)) for parameter in TABLE.parameters} | given
             broken = [limit.sentence for limit in LIMITS.of(top) if limit.expression and limit.required and not limits.evaluate(limit.expression, values)
                       and limit.readout in ("", name)]
@@ -126,6 +126,29 @@ class Written(unittest.TestCase):
         self.assertEqual(limits.legal_text(LIMITS, TABLE, "POINTER_STEP"), "1 to 2^(NP-1) - 1")
         self.assertTrue(limits.page_row(LIMITS, TABLE, "dtof_array", "COUNT_WIDTH", "10").startswith("| `COUNT_WIDTH` | 1 to 16 | 10 | bits | 1 to 8 |"))
         self.assertIn("| 0 or 2 to 6; 0 if RIVAL_MOVES is 0 | 6 | bits |", limits.page_row(LIMITS, TABLE, "dtof_pool_pointer_array", "OFFSET_BITS", "6"))
+
+    def faults_of_the_subsystems_table(self, found: limits.Limits) -> list[str]:
+        """Own parameters of dtof_subsystem whose row lacks something, or has another default than the RTL."""
+        source = (ROOT / generate.rtl_of("dtof_subsystem")).read_text(encoding="utf-8")
+        begin, _, rest = source.partition("    // parameters of the arrays")
+        _, _, own = rest.partition("    // end of parameters of the arrays")
+        declared = re.findall(r"^    parameter int (\w+) = ([^,\n]+),?", begin + own.partition(") (\n")[0], re.MULTILINE)
+        faults = []
+        for name, default in declared:
+            row = next((row for row in limits.subsystem_rows(found) if row.startswith(f"| `{name}` |")), "| | | the array's | as in the array |")
+            _, _, _, shown, meaning, _ = (cell.strip() for cell in row.split("|"))
+            if shown == "the array's" or meaning == "as in the array" or (default.isdigit() and shown != default):
+                faults.append(name)
+        self.assertGreaterEqual(len(declared), 6)
+        return faults
+
+    def test_the_page_has_the_own_parameters_of_the_subsystem(self):
+        self.assertEqual(self.faults_of_the_subsystems_table(LIMITS), [])
+        ends = "[limit.dtof_subsystem.RASTER_ORDER]\nfrom = 0\nto = 1\n"
+        without = limits.parse(TEXT.replace(f'{ends}default = "0"\n', ends))
+        self.assertEqual(self.faults_of_the_subsystems_table(without), ["RASTER_ORDER"])
+        other = limits.parse(TEXT.replace('default = "1"\nmeaning = "0: for', 'default = "0"\nmeaning = "0: for'))
+        self.assertEqual(self.faults_of_the_subsystems_table(other), ["SOURCE_WAITS"])
 
     def test_keys_of_the_sensor_file_have_the_same_limits(self):
         """`dtof sensor --keys` prints the table of the page, and a test compares both."""
