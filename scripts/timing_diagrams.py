@@ -210,7 +210,7 @@ def frame_clocks() -> str:
         f"Clocks of a frame of {size}, with a source that never pauses and a sink that",
         "never waits (`FRAME_CYCLES`, simulated by `make timing-diagrams`):",
         "",
-        "| read-out | clocks | of them lines | others |",
+        "| read-out | clocks | clocks that take lines | other clocks |",
         "|---|---:|---:|---:|",
     ]
     for name, readout in table.readouts.items():
