@@ -74,6 +74,9 @@ void run_design_command(const DesignOptions& options, JsonResult& json) {
   if (options.confirm) {
     check_flow("--confirm");
   }
+  check_design(request);
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);  // before the minutes of work
   const DesignResult result = run_design(request);
   const DesignOption& chosen = result.options[*result.recommendation.chosen];
   const std::string rivals = design_rivals(result);
@@ -95,8 +98,6 @@ void run_design_command(const DesignOptions& options, JsonResult& json) {
                     cost.mm2 / array.arrays, array.arrays > 1 ? " for each array" : "", cost.fmax_mhz);
     fmt::print("\n{}", confirmed);
   }
-  const std::filesystem::path folder(options.out);
-  create_output_folder(folder);
   write_file(folder / "design.md",
              design_page(request, result, options.sensor, options.command_line, confirmed));
   write_file(folder / "design.csv", design_csv(request, result));

@@ -111,6 +111,8 @@ TEST_F(Programs, RefusesAnUnwritableOutput) {
   expect_refused(fmt::format("frame -r fifh {} --out blocked/out", kSmallScene), "blocked");
   expect_refused(fmt::format("frame -r fifh {} --record nowhere/stream.csv --out out", kSmallScene),
                  "nowhere");
+  expect_refused("design --sensor thesis --out blocked/out",
+                 "blocked");  // before its work, which takes minutes
   EXPECT_EQ(read_file(blocked), "a file, not a folder");
 }
 
@@ -188,6 +190,7 @@ TEST_F(Programs, WhatCanBeRefusedIsRefusedBeforeTheFirstFile) {
                  "the RTL counts 16 bits of them, to 65535");
   expect_refused("frame -r ezpointer --engine rtl --trace x.fst --record stream.csv --out out",
                  "record no waveforms");
+  expect_refused("design --sensor thesis --max-mm2 0.001 --out out", "one of these would do");
   const Outcome wide =
       run(DTOF_WAVE_PROGRAM, "frame -r ezpointer --engine rtl --trace x.fst --record stream.csv --out out");
   EXPECT_EQ(wide.exit_code, 1);

@@ -207,6 +207,20 @@ void add_rivals(const DesignRequest& request, BenchEffort effort, DesignResult& 
       result.rivals, {}, [](const RivalOption& rival) { return rival.score.worst().above_3_percent.value; });
 }
 
+/// Every candidate of a request whose limits at least one of them keeps. Throws as check_design().
+std::vector<DesignCandidate> possible_candidates(const DesignRequest& request) {
+  if (request.frames < 2 || request.bench.klux.empty() || request.bench.scenes.empty()) {
+    throw InputError("design: needs a scene, a light and at least 2 frames");
+  }
+  std::vector<DesignCandidate> candidates = design_candidates(request);
+  if (std::ranges::none_of(candidates,
+                           [&](const DesignCandidate& c) { return limits_kept(c, request.limits).all(); })) {
+    throw InputError("design: " + what_would_be_needed(candidates, request.limits) +
+                     what_would_fit(candidates, request));
+  }
+  return candidates;
+}
+
 }  // namespace
 
 std::vector<DesignCandidate> design_candidates(const DesignRequest& request) {
@@ -245,16 +259,10 @@ std::vector<const RivalOption*> more_accurate_rivals(const DesignResult& result)
   return found;
 }
 
+void check_design(const DesignRequest& request) { (void)possible_candidates(request); }
+
 DesignResult run_design(const DesignRequest& request) {
-  if (request.frames < 2 || request.bench.klux.empty() || request.bench.scenes.empty()) {
-    throw InputError("design: needs a scene, a light and at least 2 frames");
-  }
-  const std::vector<DesignCandidate> candidates = design_candidates(request);
-  if (std::ranges::none_of(candidates,
-                           [&](const DesignCandidate& c) { return limits_kept(c, request.limits).all(); })) {
-    throw InputError("design: " + what_would_be_needed(candidates, request.limits) +
-                     what_would_fit(candidates, request));
-  }
+  const std::vector<DesignCandidate> candidates = possible_candidates(request);
   DesignResult result;
   result.searched = candidates.size();
   result.frames = frames_of(request);

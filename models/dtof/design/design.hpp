@@ -70,11 +70,15 @@ std::vector<const RivalOption*> more_accurate_rivals(const DesignResult& result)
 /// Returns every candidate of the request with its estimated cost, in the brightest light.
 std::vector<DesignCandidate> design_candidates(const DesignRequest& request);
 
+/// Throws the InputError of run_design() that follows before any photon is read: with one line that says what
+/// would be needed, if no read-out meets the limits.
+void check_design(const DesignRequest& request);
+
 /// Estimates the cost of every candidate. Reads out those that meet the limits, also after one limit is
 /// loosened by 10 %. Of candidates that differ in SLOTS, ENGINE_COLUMNS and columns for each SRAM alone,
 /// reads one: with most SLOTS, then with the smallest array. Compares the best option of each read-out, and
-/// the contenders in more frames until these settle the choice or the budget is spent. Throws InputError,
-/// with one line that says what would be needed, if no read-out meets the limits.
+/// the contenders in more frames until these settle the choice or the budget is spent. Throws as
+/// check_design() does.
 DesignResult run_design(const DesignRequest& request);
 
 }  // namespace dtof
