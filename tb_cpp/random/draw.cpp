@@ -2,9 +2,11 @@
 #include "random/draw.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/random.hpp"
+#include "dtof/design/array_memories.hpp"
 
 namespace dtof {
 namespace {
@@ -112,6 +114,17 @@ RtlConfiguration drawn_configuration(std::uint64_t seed, std::uint32_t index) {
   configuration.sram_num = draw.from(1, 9);
   configuration.parity = draw.coin();
   return configuration;
+}
+
+RtlConfiguration netlist_configuration(const RtlConfiguration& drawn) {
+  constexpr int kPixels = 3;  // synth/dtof_synth/simulation.py
+  RtlConfiguration netlist = drawn;
+  if (drawn.signalled_clear) {
+    const std::vector<MacroSize> memories =
+        column_memories({.parameters = drawn.parameters, .rows = kPixels});
+    netlist.signalled_clear = memories.front().words <= kMostStatusBits;  // the first one has the histograms
+  }
+  return netlist;
 }
 
 }  // namespace dtof

@@ -41,7 +41,12 @@ void run(const Options& options) {
     const bool equal = check.difference.empty();
     table.add({fmt::format("{}", i), configuration.to_string(), fmt::format("{}", check.frames),
                fmt::format("{}", check.results), fmt::format("{}", check.clocks), equal ? "yes" : "NO"});
-    toml += "\n" + dtof::configuration_toml(fmt::format("drawn_{}", i), configuration);
+    const dtof::RtlConfiguration netlist = dtof::netlist_configuration(configuration);
+    toml += "\n" + dtof::configuration_toml(fmt::format("drawn_{}", i), netlist);
+    if (netlist.signalled_clear != configuration.signalled_clear) {
+      fmt::print("{}: its netlist has SIGNALLED_CLEAR = 0: a column would have more than {} status bits\n", i,
+                 dtof::kMostStatusBits);
+    }
     fmt::print(
         "{} {}: {}\n", i, configuration.to_string(),
         equal ? fmt::format("{} results of {} frames equal", check.results, check.frames) : check.difference);

@@ -86,6 +86,25 @@ TEST_F(DrawnArray, OfAReadoutOfTheThesisAndOfAPoolReadoutIsItsModels) {
   }
 }
 
+TEST(DrawnNetlist, HasFewStatusBits) {
+  int without = 0;
+  for (std::uint32_t index = 0; index < 300; ++index) {
+    const RtlConfiguration drawn = drawn_configuration(3, index);
+    const RtlConfiguration netlist = netlist_configuration(drawn);
+    const ReadoutParameters& p = drawn.parameters;
+    if (p.readout == Readout::kHistogram && drawn.signalled_clear) {
+      EXPECT_EQ(netlist.signalled_clear, 3 << p.np <= kMostStatusBits) << drawn.to_string();
+    }
+    if (p.readout == Readout::kThreeSteps || p.readout == Readout::kEzPointer) {
+      EXPECT_EQ(netlist.signalled_clear, drawn.signalled_clear) << "at most 48 bits";
+    }
+    without += netlist.signalled_clear ? 0 : 1;
+    EXPECT_EQ(netlist.parameters, drawn.parameters);
+  }
+  EXPECT_GT(without, 100);
+  EXPECT_LT(without, 290);
+}
+
 TEST_F(DrawnArray, WithAFaultIsDescribed) {
   std::vector<SourceFile> sources(project_sources().begin(), project_sources().end());
   const auto update = std::ranges::find(sources, "hdl/thesis/dtof_pointer_update.sv", &SourceFile::path);
