@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "dtof/core/error.hpp"
@@ -24,7 +25,7 @@ BenchSettings bench_of(const ProductRequest& request) {
 }
 
 /// As many frames as `dtof design` takes, of so many pixels that a large array takes seconds.
-BenchEffort effort_of(const BenchSettings& bench) {
+BenchEffort effort_of(const BenchSettings& bench, const ReadoutParameters& readout) {
   constexpr int kFrames = 4;
   constexpr double kFewestPixels = 4000.0;
   constexpr double kWork = 1e9;  // pixels x acquisitions
@@ -33,7 +34,10 @@ BenchEffort effort_of(const BenchSettings& bench) {
   const int frames =
       std::max(kFrames, static_cast<int>(std::ceil(kFewestPixels / (scenes * sensor.rows * sensor.columns))));
   const double each = kWork / (frames * scenes * static_cast<double>(bench.klux.size()));
-  return {.pixels = each / std::max(sensor.acquisitions, 1U), .frames = frames, .detection = true};
+  return {.pixels = each / std::max(sensor.acquisitions, 1U),
+          .frames = frames,
+          .detection = true,
+          .engine_columns = bench_engine_columns(std::span(&readout, 1))};
 }
 
 std::string share(const std::optional<Estimate>& estimate) {
@@ -44,7 +48,7 @@ std::string share(const std::optional<Estimate>& estimate) {
 
 std::string accuracy(const ProductRequest& request) {
   const BenchSettings bench = bench_of(request);
-  const BenchEffort effort = effort_of(bench);
+  const BenchEffort effort = effort_of(bench, request.parameters);
   const ReadoutScore score = run_bench(bench, std::vector{request.parameters}, effort).front();
   Table table({"klux", "off by > 3 % in %", "> 10 % in %", "rmse mm", "P_d in %", "P_fa in %"});
   for (const LightScore& light : score.lights) {

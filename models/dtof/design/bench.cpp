@@ -30,19 +30,6 @@ bool has_confidence(const ReadoutParameters& parameters) {
   return !is_pointer_readout(parameters.readout) || parameters.confidence_width > 0;
 }
 
-/// Columns of the engines of a comparison: the fewest that the pool read-outs among these have by default; 1
-/// without any.
-int engine_columns(std::span<const ReadoutParameters> readouts) {
-  int fewest = 0;
-  for (const ReadoutParameters& one : readouts) {
-    if (is_pool_readout(one.readout)) {
-      const int own = ReadoutParameters::defaults(one.readout, one.np).pool.engine_columns;
-      fewest = fewest == 0 ? own : std::min(fewest, own);
-    }
-  }
-  return std::max(fewest, 1);
-}
-
 /// Adds a frame of one scene.
 void add(FrameCounts& counts, const MeasuredFrame& frame, const FrameTruth& truth,
          std::optional<int> threshold) {
@@ -67,7 +54,7 @@ class SlotsBench {
         effort_(effort),
         tables_(tables),
         progress_(progress),
-        region_{bench_columns(sensor_, effort.pixels, engine_columns(readouts_)), {0, sensor_.rows}},
+        region_(bench_region(sensor_, effort.pixels, effort.engine_columns)),
         engine_(
             {.threads = settings.threads, .own_rows = true, .observer = [](std::size_t, std::size_t) {}}) {
     for (const Scene scene : settings.scenes) {
@@ -109,7 +96,7 @@ class SlotsBench {
                    ConfidenceCounts Sky::*counts) {
     const TargetMap sky(sensor_.columns, sensor_.rows, {0.0, sensor_.default_reflectivity});
     const std::uint32_t frames =
-        sky_frames(settings_, region_.columns.size() * static_cast<std::size_t>(sensor_.rows));
+        sky_frames(settings_, region_.columns.size() * static_cast<std::size_t>(region_.rows.count));
     for (std::uint32_t frame = 0; frame < frames; ++frame) {
       const FramePipeline pipeline(PhotonSource(sensor_, sky, klux, settings_.seed, first_frame + frame),
                                    engine_,
@@ -183,27 +170,52 @@ TargetMap scaled_scene(Scene scene, const SensorModel& sensor, std::uint64_t see
   return targets;
 }
 
+int bench_engine_columns(std::span<const ReadoutParameters> readouts) {
+  int fewest = 0;
+  for (const ReadoutParameters& one : readouts) {
+    if (is_pool_readout(one.readout)) {
+      const int own = ReadoutParameters::defaults(one.readout, one.np).pool.engine_columns;
+      fewest = fewest == 0 ? own : std::min(fewest, own);
+    }
+  }
+  return std::max(fewest, 1);
+}
+
 const LightScore& ReadoutScore::worst() const {
   return *std::ranges::max_element(lights, {},
                                    [](const LightScore& light) { return light.above_3_percent.value; });
 }
 
 std::vector<int> bench_columns(const SensorModel& sensor, double pixels, int engine_columns) {
-  constexpr int kParts = 3;
-  const double wanted = std::min(pixels / sensor.rows / kParts, static_cast<double>(sensor.columns));
-  const int of_part = engine_columns * std::max(static_cast<int>(wanted / engine_columns), 1);
+  constexpr int kMostParts = 3;
+  const double engines = std::min(pixels / sensor.rows, static_cast<double>(sensor.columns)) / engine_columns;
+  const int parts = std::clamp(static_cast<int>(engines), 1, kMostParts);
+  const int of_part = engine_columns * std::max(static_cast<int>(engines / parts), 1);
   std::set<int> columns;
-  for (int part = 0; part < kParts && kParts * of_part < sensor.columns; ++part) {
-    const int middle = sensor.columns * (2 * part + 1) / (2 * kParts);
+  for (int part = 0; part < parts && parts * of_part < sensor.columns; ++part) {
+    const int middle = sensor.columns * (2 * part + 1) / (2 * parts);
     const int first = (middle - of_part / 2 + engine_columns / 2) / engine_columns * engine_columns;
     for (int column = first; column < std::min(first + of_part, sensor.columns); ++column) {
       columns.insert(column);
     }
   }
-  for (int column = 0; kParts * of_part >= sensor.columns && column < sensor.columns; ++column) {
+  for (int column = 0; parts * of_part >= sensor.columns && column < sensor.columns; ++column) {
     columns.insert(column);
   }
   return {columns.begin(), columns.end()};
+}
+
+Region bench_region(const SensorModel& sensor, double pixels, int engine_columns) {
+  constexpr int kLeastRows = 64;
+  constexpr int kStep = 32;  // the largest GROUP_SIZE
+  Region region{bench_columns(sensor, pixels, engine_columns), {0, sensor.rows}};
+  const double wanted =
+      std::min(pixels / static_cast<double>(region.columns.size()), double{kMostSubsystemRows});
+  const int rows = std::max(static_cast<int>(wanted) / kStep * kStep, kLeastRows);
+  if (rows < sensor.rows) {
+    region.rows = {(sensor.rows - rows) / 2 / kStep * kStep, rows};
+  }
+  return region;
 }
 
 std::vector<RangeConverter> BenchTables::of(const SensorModel& sensor, double klux,

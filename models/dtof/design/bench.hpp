@@ -13,6 +13,7 @@
 #include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/photon/target_map.hpp"
+#include "dtof/pipeline/region.hpp"
 #include "dtof/scene/scene.hpp"
 
 namespace dtof {
@@ -59,12 +60,22 @@ struct BenchEffort {
   double pixels = 1e9;
   int frames = 1;
   bool detection = false;
+  int engine_columns = 1;  ///< pixels are those of whole engines of so many columns
 };
 
-/// Returns three groups of columns, near the middles of the thirds of the array, that hold about `pixels`
-/// pixels together; all columns if the array has no more. Each group has whole engines of `engine_columns`
-/// columns, at least one: a model reads an engine's columns together.
+/// Columns of an engine for BenchEffort: the fewest that the pool read-outs among these have by default; 1
+/// without any.
+int bench_engine_columns(std::span<const ReadoutParameters> readouts);
+
+/// Returns up to three groups of columns, near the middles of equal parts of the array, that hold about
+/// `pixels` pixels together; all columns if the array has no more. Each group has whole engines of
+/// `engine_columns` columns, at least one: a model reads an engine's columns together. There are as many
+/// groups as fit `pixels`, at least one.
 std::vector<int> bench_columns(const SensorModel& sensor, double pixels, int engine_columns = 1);
+
+/// Returns the columns of bench_columns, and of these all rows or, if they have more than `pixels` pixels,
+/// rows in the middle: a multiple of 32, at least 64.
+Region bench_region(const SensorModel& sensor, double pixels, int engine_columns);
 
 /// Look-up tables from flat targets, by light and read-out. A comparison in further frames needs no new
 /// ones. Not for several threads at once.

@@ -279,10 +279,12 @@ DesignResult run_design(const DesignRequest& request) {
     all[i] = i;
   }
   BenchTables tables;
+  const int engine_columns = bench_engine_columns(parameters_of(result.options, all));
   std::vector<ReadoutScore> screened =
       read(request, result.options, all,
-           {.pixels = pixels_of(request.screening_work, number_of(result.options, all), request, 1)}, tables,
-           "parameters");
+           {.pixels = pixels_of(request.screening_work, number_of(result.options, all), request, 1),
+            .engine_columns = engine_columns},
+           tables, "parameters");
   for (std::size_t i = 0; i < all.size(); ++i) {
     result.options[i].screened = std::move(screened[i]);
   }
@@ -299,7 +301,8 @@ DesignResult run_design(const DesignRequest& request) {
   const BenchEffort effort{
       .pixels = pixels_of(request.final_work, number_of(result.options, best), request, result.frames),
       .frames = result.frames,
-      .detection = request.detection};
+      .detection = request.detection,
+      .engine_columns = engine_columns};
   std::vector<ReadoutScore> scores = read(request, result.options, best, effort, tables, "read-outs");
   for (std::size_t i = 0; i < best.size(); ++i) {
     result.options[best[i]].score = std::move(scores[i]);

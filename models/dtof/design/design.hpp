@@ -35,7 +35,7 @@ struct DesignRequest {
   std::function<void(std::string_view step, std::size_t done, std::size_t total)> observer;
 };
 
-/// The request with a twentieth of the pixels (bench_columns: at least three engines), and without P_d, P_fa
+/// The request with a twentieth of the pixels (at least those of bench_region), and without P_d, P_fa
 /// and rivals (`--quick`, and the playground's page).
 DesignRequest quick_design(DesignRequest request);
 

@@ -40,13 +40,14 @@ TEST(Bench, DistancesAreInProportionToTheRange) {
   EXPECT_NEAR(thesis, farthest(make_scene(Scene::kRoom, {.columns = 36, .rows = 16})), 1e-9);
 }
 
-TEST(Bench, ColumnsAreAllOrThoseOfThreeParts) {
+TEST(Bench, ColumnsAreAllOrThoseOfSomeParts) {
   SensorModel sensor = small_sensor();
   EXPECT_EQ(bench_columns(sensor, 1e9).size(), 36U);
-  const std::vector<int> columns = bench_columns(sensor, 16 * 6);
-  EXPECT_EQ(columns, (std::vector<int>{5, 6, 17, 18, 29, 30}));
+  EXPECT_EQ(bench_columns(sensor, 16 * 6), (std::vector<int>{5, 6, 17, 18, 29, 30}));
+  EXPECT_EQ(bench_columns(sensor, 16 * 2), (std::vector<int>{9, 27}));
+  EXPECT_EQ(bench_columns(sensor, 1), (std::vector<int>{18}));
   sensor.columns = 2;
-  EXPECT_EQ(bench_columns(sensor, 1).size(), 2U);
+  EXPECT_EQ(bench_columns(sensor, 16 * 2), (std::vector<int>{0, 1}));
 }
 
 TEST(Bench, ColumnsAreThoseOfWholeEngines) {
@@ -62,12 +63,28 @@ TEST(Bench, ColumnsAreThoseOfWholeEngines) {
     return found;
   };
   using Ranges = std::vector<std::pair<int, int>>;
-  EXPECT_EQ(ranges(160 * 6, 34), (Ranges{{0, 34}, {68, 102}, {136, 170}}));
+  EXPECT_EQ(ranges(160 * 6, 34), (Ranges{{68, 102}}));
+  EXPECT_EQ(ranges(160 * 70, 34), (Ranges{{34, 68}, {136, 170}}));
   EXPECT_EQ(ranges(160 * 150, 34), (Ranges{{0, 34}, {68, 102}, {136, 170}}));
   EXPECT_EQ(ranges(160 * 60, 10), (Ranges{{20, 40}, {90, 110}, {160, 180}}));
-  EXPECT_EQ(ranges(160 * 6, 100), (Ranges{{0, 200}}));
+  EXPECT_EQ(ranges(160 * 6, 100), (Ranges{{100, 200}}));
+  EXPECT_EQ(ranges(160 * 200, 100), (Ranges{{0, 200}}));
   sensor.columns = 110;  // the last engine has fewer columns
-  EXPECT_EQ(ranges(160 * 3, 30), (Ranges{{0, 60}, {90, 110}}));
+  EXPECT_EQ(ranges(160 * 100, 30), (Ranges{{0, 60}, {90, 110}}));
+}
+
+TEST(Bench, RowsAreFewerOnlyWhereOneEngineHasTooManyPixels) {
+  const SensorModel sensor = parse_preset("thesis");
+  const auto rows = [&](double pixels) {
+    const RowRange range = bench_region(sensor, pixels, 34).rows;
+    return std::pair(range.first, range.count);
+  };
+  EXPECT_EQ(rows(160 * 34), std::pair(0, 160));
+  EXPECT_EQ(rows(1e9), std::pair(0, 160));
+  EXPECT_EQ(rows(34 * 130), std::pair(0, 128));
+  EXPECT_EQ(rows(34 * 100), std::pair(32, 96));
+  EXPECT_EQ(rows(34), std::pair(32, 64));
+  EXPECT_EQ(bench_region(small_sensor(), 34, 34).rows.count, 16);
 }
 
 TEST(Bench, TablesAreFittedOnceForEachLightAndReadout) {
