@@ -188,9 +188,11 @@ const LightScore& ReadoutScore::worst() const {
 
 std::vector<int> bench_columns(const SensorModel& sensor, double pixels, int engine_columns) {
   constexpr int kMostParts = 3;
-  const double engines = std::min(pixels / sensor.rows, static_cast<double>(sensor.columns)) / engine_columns;
-  const int parts = std::clamp(static_cast<int>(engines), 1, kMostParts);
-  const int of_part = engine_columns * std::max(static_cast<int>(engines / parts), 1);
+  const double wanted = pixels / sensor.rows;
+  const bool all = wanted >= sensor.columns;
+  const int parts = all ? 1 : std::clamp(static_cast<int>(wanted / engine_columns), 1, kMostParts);
+  const int of_part =
+      all ? sensor.columns : engine_columns * std::max(static_cast<int>(wanted / parts / engine_columns), 1);
   std::set<int> columns;
   for (int part = 0; part < parts && parts * of_part < sensor.columns; ++part) {
     const int middle = sensor.columns * (2 * part + 1) / (2 * parts);

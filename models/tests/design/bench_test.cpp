@@ -69,6 +69,8 @@ TEST(Bench, ColumnsAreThoseOfWholeEngines) {
   EXPECT_EQ(ranges(160 * 60, 10), (Ranges{{20, 40}, {90, 110}, {160, 180}}));
   EXPECT_EQ(ranges(160 * 6, 100), (Ranges{{100, 200}}));
   EXPECT_EQ(ranges(160 * 200, 100), (Ranges{{0, 200}}));
+  EXPECT_EQ(ranges(160 * 200, 34), (Ranges{{0, 200}}));
+  EXPECT_EQ(ranges(160 * 199, 34), (Ranges{{0, 34}, {68, 102}, {136, 170}}));
   sensor.columns = 110;  // the last engine has fewer columns
   EXPECT_EQ(ranges(160 * 100, 30), (Ranges{{0, 60}, {90, 110}}));
 }
