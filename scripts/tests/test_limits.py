@@ -140,6 +140,12 @@ class Written(unittest.TestCase):
             if shown == "the array's" or meaning == "as in the array" or (default.isdigit() and shown != default):
                 faults.append(name)
         self.assertGreaterEqual(len(declared), 6)
+        # The shares are among the arrays' parameters in the RTL, and come from readouts.toml.
+        for name in ("COARSE_SHARE", "TRACK_SHARE"):
+            (limit,) = found.of("dtof_subsystem", name)
+            lean = TABLE.default("poolpointer-lean", name, 10)
+            if limit.default != str(TABLE.default("poolpointer", name, 10)) or (str(lean) != limit.default and f"{lean} for poolPointer lean" not in limit.meaning):
+                faults.append(name)
         return faults
 
     def test_the_page_has_the_own_parameters_of_the_subsystem(self):
@@ -147,6 +153,8 @@ class Written(unittest.TestCase):
         ends = "[limit.dtof_subsystem.RASTER_ORDER]\nfrom = 0\nto = 1\n"
         without = limits.parse(TEXT.replace(f'{ends}default = "0"\n', ends))
         self.assertEqual(self.faults_of_the_subsystems_table(without), ["RASTER_ORDER"])
+        share = limits.parse(TEXT.replace('default = "30"', 'default = "31"'))
+        self.assertEqual(self.faults_of_the_subsystems_table(share), ["TRACK_SHARE"])
         other = limits.parse(TEXT.replace('default = "1"\nmeaning = "0: for', 'default = "0"\nmeaning = "0: for'))
         self.assertEqual(self.faults_of_the_subsystems_table(other), ["SOURCE_WAITS"])
 

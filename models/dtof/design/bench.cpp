@@ -211,11 +211,12 @@ Region bench_region(const SensorModel& sensor, double pixels, int engine_columns
   constexpr int kLeastRows = 64;
   constexpr int kStep = 32;  // the largest GROUP_SIZE
   Region region{bench_columns(sensor, pixels, engine_columns), {0, sensor.rows}};
-  const double wanted =
-      std::min(pixels / static_cast<double>(region.columns.size()), double{kMostSubsystemRows});
-  const int rows = std::max(static_cast<int>(wanted) / kStep * kStep, kLeastRows);
-  if (rows < sensor.rows) {
-    region.rows = {(sensor.rows - rows) / 2 / kStep * kStep, rows};
+  const double wanted = pixels / static_cast<double>(region.columns.size());
+  if (wanted < sensor.rows) {
+    const int rows = std::max(static_cast<int>(wanted) / kStep * kStep, kLeastRows);
+    if (rows < sensor.rows) {
+      region.rows = {(sensor.rows - rows) / 2 / kStep * kStep, rows};
+    }
   }
   return region;
 }

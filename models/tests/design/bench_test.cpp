@@ -87,6 +87,10 @@ TEST(Bench, RowsAreFewerOnlyWhereOneEngineHasTooManyPixels) {
   EXPECT_EQ(rows(34 * 100), std::pair(32, 96));
   EXPECT_EQ(rows(34), std::pair(32, 64));
   EXPECT_EQ(bench_region(small_sensor(), 34, 34).rows.count, 16);
+  SensorModel odd = sensor;
+  odd.rows = 100;  // no multiple of 32
+  EXPECT_EQ(bench_region(odd, 34 * 101, 34).rows.count, 100);
+  EXPECT_EQ(bench_region(odd, 34 * 99, 34).rows.count, 96);
 }
 
 TEST(Bench, TablesAreFittedOnceForEachLightAndReadout) {
