@@ -12,8 +12,8 @@ namespace dtof {
 /// all its legal values; a pool read-out has one to several engines of columns.
 RtlConfiguration drawn_configuration(std::uint64_t seed, std::uint32_t index);
 
-/// Most status bits of a column in a simulated netlist. Each is a flip-flop; 2^16 of them are mapped and
-/// simulated for hours.
+/// Most status bits of a column in a simulated netlist. Each is a flip-flop; Yosys takes minutes to elaborate
+/// 2^16 of them, before any mapping and simulation.
 inline constexpr int kMostStatusBits = 4096;
 
 /// The array whose netlist is simulated in place of `drawn`: SIGNALLED_CLEAR is 0 if three pixels, as
