@@ -194,9 +194,14 @@ std::string design_recommendation(const DesignRequest& request, const DesignResu
   } else if (found.within.front() == *found.chosen) {
     text += fmt::format(", the fewest of the {} read-outs that keep the limits.", found.within.size());
   } else {
-    text += fmt::format(", at most {:.2f} times the {} % of {}, in a smaller array ({:.2f} of {:.2f} mm2).",
-                        kGoodRatio, share_text(first.best_known().worst().above_3_percent), title_of(first),
-                        chosen.candidate.cost.mm2, first.candidate.cost.mm2);
+    const Estimate& fewest = first.best_known().worst().above_3_percent;
+    const std::string within =
+        worst.above_3_percent.value <= kGoodRatio * fewest.value
+            ? fmt::format("at most {:.2f} times", kGoodRatio)
+            : fmt::format("at most {:g} % of the pixels more than", 100.0 * kGoodDifference);
+    text +=
+        fmt::format(", {} the {} % of {}, in a smaller array ({:.2f} of {:.2f} mm2).", within,
+                    share_text(fewest), title_of(first), chosen.candidate.cost.mm2, first.candidate.cost.mm2);
   }
   const FrameBudget& budget = request.limits.budget;
   const double least_mhz =
@@ -303,10 +308,13 @@ std::string design_page(const DesignRequest& request, const DesignResult& result
       "Scenes: {}, distances in proportion to "
       "the sensor's "
       "range; lights: {} klux; models, exact photons, look-up tables from flat targets, seed {}. The "
-      "smallest array is taken whose share is at most {:.2f} times the smallest share.\n\nCommand: `{}`\n",
+      "smallest array is taken whose share is at most {:.2f} times the smallest share, or at most {:g} % of "
+      "the "
+      "pixels larger.\n\nCommand: `{}`\n",
       design_product(request, result, sensor_name), result.searched, result.options.size(), result.frames,
       chosen.best_known().pixels, contest_text(result), fmt::join(scenes, ", "),
-      fmt::join(request.bench.klux, ", "), request.bench.seed, kGoodRatio, command_line);
+      fmt::join(request.bench.klux, ", "), request.bench.seed, kGoodRatio, 100.0 * kGoodDifference,
+      command_line);
   return text;
 }
 

@@ -156,9 +156,10 @@ Verdict SensorJudgement::verdict() const {
   if (!keeps_limits) {
     return Verdict::kBeyond;
   }
-  return ratio.value <= kGoodRatio          ? Verdict::kWithin
-         : ratio.interval.low <= kGoodRatio ? Verdict::kUndecided
-                                            : Verdict::kBeyond;
+  const bool differs_little = recommended.share.value <= best.share.value + kGoodDifference;
+  return differs_little || ratio.value <= kGoodRatio ? Verdict::kWithin
+         : ratio.interval.low <= kGoodRatio          ? Verdict::kUndecided
+                                                     : Verdict::kBeyond;
 }
 
 Estimate share_ratio(std::span<const double> chosen, std::span<const double> best, std::uint64_t pixels) {

@@ -24,9 +24,10 @@ enum class Lost {
 };
 
 enum class Verdict {
-  kWithin,     ///< the ratio is at most kGoodRatio
-  kUndecided,  ///< the ratio is larger, and its interval reaches kGoodRatio
-  kBeyond,     ///< the ratio's whole interval is larger, or the recommendation misses a limit
+  kWithin,     ///< the ratio is at most kGoodRatio, or the shares differ by at most kGoodDifference
+  kUndecided,  ///< ratio and difference are larger, and its interval reaches kGoodRatio
+  kBeyond,     ///< the difference and the ratio's whole interval are larger, or the recommendation misses a
+               ///< limit
 };
 
 /// One candidate as the judge read it in the final.

@@ -38,8 +38,8 @@ std::string judgement_answer(const std::vector<JudgedSensor>& judged) {
   const std::size_t within = count(judged, Verdict::kWithin);
   const std::size_t undecided = count(judged, Verdict::kUndecided);
   return fmt::format(
-      "**For {} of {} random sensors the recommendation of `dtof design` is within 5 % of the best of a full "
-      "sweep.** Within 5 % or not told from it by the interval: {} of {}. Worse beyond the interval: {}.\n",
+      "**For {} of {} random sensors the recommendation of `dtof design` is about as good as the best of a "
+      "full sweep.** As good or not told from it by the interval: {} of {}. Worse beyond the interval: {}.\n",
       within, judged.size(), within + undecided, judged.size(), count(judged, Verdict::kBeyond));
 }
 
@@ -82,7 +82,7 @@ std::string reason(const SensorJudgement& one) {
                            best, other);
     case Lost::kInFinal:
       return fmt::format("in the search's last frames the best had {} % and the recommendation {} %{}", best,
-                         other, smaller ? "; the smaller array within 5 % won" : "");
+                         other, smaller ? "; the smaller array won, because its share was small enough" : "");
     case Lost::kNothing:
       break;
   }
@@ -129,11 +129,16 @@ std::string judgement_report(const JudgementSettings& settings, const std::vecto
       "# Judgement of `dtof design`\n\n{}\n"
       "![Share of the recommendation against the best share](design_judgement.svg)\n\n{}\n"
       "* Place in the sweep: 1 is the smallest share in the sweep's own photons.\n"
-      "* Verdict: *within*: the ratio is at most {:g}; *undecided*: the ratio is larger, and its interval "
-      "reaches {:g}; *beyond*: the whole interval is larger.\n\n"
-      "## Not within 5 %\n\n{}\n"
-      "The search takes the smallest array whose measured share is at most {:g} times the smallest one. It "
-      "can therefore give up a few per cent of the share for area on purpose.\n\n"
+      "* Verdict: *within*: the ratio is at most {:g}, or the share is at most {:g} % of the pixels larger "
+      "than "
+      "the best; *undecided*: both are larger, and the interval of the ratio reaches {:g}; *beyond*: the "
+      "whole "
+      "interval is larger, too.\n\n"
+      "## Not within\n\n{}\n"
+      "The search takes the smallest array whose measured share is at most {:g} times the smallest one, or "
+      "at "
+      "most {:g} % of the pixels larger. It therefore gives up a little accuracy for area on "
+      "purpose.\n\n"
       "## How it is judged\n\n"
       "* Recommendation: the function that `dtof design` calls, with the default options and the options of "
       "the sensor in the list below; scenes {}, {} klux, seed {}.\n"
@@ -154,10 +159,11 @@ std::string judgement_report(const JudgementSettings& settings, const std::vecto
       "the limit is a random quantile, 15 to 85 %, of the grid's costs.\n\n"
       "## Sensors\n\nSignal: events a pulse from a white target at R in m. The command writes each sensor "
       "file to `sensors/` in its output folder.\n\n{}\nCommand: `{}`\n",
-      judgement_answer(judged), sensor_table(judged).markdown(), kGoodRatio, kGoodRatio, misses(judged),
-      kGoodRatio, fmt::join(scenes, " and "), fmt::join(usual.bench.klux, " and "), usual.bench.seed,
-      settings.sweep_pixels, settings.finalists, settings.final_seeds, settings.final_pixels, settings.seed,
-      ranges_text(settings.ranges), sensors_text(judged), command_line);
+      judgement_answer(judged), sensor_table(judged).markdown(), kGoodRatio, 100.0 * kGoodDifference,
+      kGoodRatio, misses(judged), kGoodRatio, 100.0 * kGoodDifference, fmt::join(scenes, " and "),
+      fmt::join(usual.bench.klux, " and "), usual.bench.seed, settings.sweep_pixels, settings.finalists,
+      settings.final_seeds, settings.final_pixels, settings.seed, ranges_text(settings.ranges),
+      sensors_text(judged), command_line);
 }
 
 Table judgement_csv(const std::vector<JudgedSensor>& judged) {

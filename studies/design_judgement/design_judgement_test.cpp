@@ -182,12 +182,16 @@ TEST(DesignJudgement, RatiosByHand) {
 
 TEST(DesignJudgement, VerdictsByHand) {
   SensorJudgement judgement;
+  judgement.best.share = {0.1, {}};
+  judgement.recommended.share = {0.11, {}};
   judgement.ratio = {1.05, {0.9, 1.2}};
   EXPECT_EQ(judgement.verdict(), Verdict::kWithin);
   judgement.ratio = {1.06, {1.04, 1.08}};
   EXPECT_EQ(judgement.verdict(), Verdict::kUndecided);
   judgement.ratio = {1.10, {1.06, 1.14}};
   EXPECT_EQ(judgement.verdict(), Verdict::kBeyond);
+  judgement.recommended.share = {0.1009, {}};
+  EXPECT_EQ(judgement.verdict(), Verdict::kWithin) << "0.09 % of the pixels more";
   judgement.ratio = {0.9, {0.8, 1.0}};
   judgement.keeps_limits = false;
   EXPECT_EQ(judgement.verdict(), Verdict::kBeyond);
@@ -198,7 +202,7 @@ SensorJudgement judgement_of(double ratio, double low, Lost lost) {
   made.grid = 114;
   made.kept = 57;
   made.read = 60;
-  made.recommended = {.name = "sifh --nb 5", .share = {0.011, {0.010, 0.012}}, .mm2 = 0.31, .place = 4};
+  made.recommended = {.name = "sifh --nb 5", .share = {0.0111, {0.010, 0.012}}, .mm2 = 0.31, .place = 4};
   made.best = {.name = "poolpointer", .share = {0.01, {0.009, 0.011}}, .mm2 = 0.35, .place = 1};
   made.ratio = {ratio, {low, 2.0 * ratio - low}};
   made.lost = lost;
@@ -253,7 +257,7 @@ TEST(DesignJudgement, TheReportBeginsWithTheAnswerAndGivesReasons) {
   EXPECT_THAT(report, HasSubstr("**For 1 of 3 random sensors"));
   EXPECT_THAT(
       report,
-      HasSubstr("Within 5 % or not told from it by the interval: 2 of 3. Worse beyond the interval: 1."));
+      HasSubstr("As good or not told from it by the interval: 2 of 3. Worse beyond the interval: 1."));
   EXPECT_THAT(report,
               HasSubstr("* 2 (undecided): sifh --nb 5 instead of poolpointer. Reason: in the search's "
                         "last frames the best had 1.230 % and the recommendation 1.450 %"));

@@ -59,7 +59,7 @@ struct DesignResult {
   std::vector<Consequence> consequences;  ///< one for each changed limit
   int frames = 0;                         ///< frames that compared the read-outs
   int contest_frames = 0;                 ///< frames that compared the contenders last; 0: without contest
-  bool settled = true;                    ///< the frames show whether a smaller array is within kGoodRatio
+  bool settled = true;                    ///< the frames show whether a smaller array is as good (good_share)
   std::size_t searched = 0;               ///< parameter sets whose cost was estimated
 };
 

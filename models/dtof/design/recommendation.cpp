@@ -40,7 +40,7 @@ std::optional<std::size_t> choice(std::span<const DesignOption> options,
     return std::nullopt;
   }
   return smallest_of(options, among, [](const LightScore& one, const LightScore& best) {
-    return one.above_3_percent.value <= kGoodRatio * best.above_3_percent.value;
+    return one.above_3_percent.value <= good_share(best.above_3_percent.value);
   });
 }
 
@@ -55,13 +55,15 @@ std::vector<std::size_t> of_readout(std::span<const DesignOption> options,
   return found;
 }
 
-/// Share of `one` less kGoodRatio times the share of `other`, over the frames that both have.
+/// Share of `one` less good_share of the share of `other`, over the frames that both have.
 Interval excess(const DesignOption& one, const DesignOption& other) {
   const std::vector<double>& ones = one.best_known().worst().above_3_of_frames;
   const std::vector<double>& others = other.best_known().worst().above_3_of_frames;
+  const double share = share_of(other);
+  const bool by_ratio = kGoodRatio * share > share + kGoodDifference;
   std::vector<double> differences;
   for (std::size_t i = 0; i < std::min(ones.size(), others.size()); ++i) {
-    differences.push_back(ones[i] - kGoodRatio * others[i]);
+    differences.push_back(ones[i] - (by_ratio ? kGoodRatio * others[i] : others[i] + kGoodDifference));
   }
   return estimate_mean(differences).interval;
 }
@@ -91,6 +93,8 @@ std::vector<Need> needs(const DesignLimits& limits) {
 }
 
 }  // namespace
+
+double good_share(double smallest) { return std::max(kGoodRatio * smallest, smallest + kGoodDifference); }
 
 std::vector<LimitChange> limit_changes(const DesignLimits& limits) {
   std::vector<LimitChange> changes;

@@ -37,8 +37,13 @@ bool as_good(const LightScore& one, const LightScore& other);
 /// level, and the smallest array of those that are as good (as_good).
 std::vector<std::size_t> finalists(std::span<const DesignOption> options, const DesignLimits& limits);
 
-/// A smaller array is preferred if its share of errors is at most this many times the smallest share.
+/// A smaller array is preferred if its share of errors is at most this many times the smallest share, or at
+/// most this share of all pixels larger.
 inline constexpr double kGoodRatio = 1.05;
+inline constexpr double kGoodDifference = 0.001;
+/// Returns the largest share of errors with which a smaller array is preferred to one with the share
+/// `smallest`.
+double good_share(double smallest);
 
 struct Recommendation {
   std::vector<std::size_t> within;  ///< best option of each read-out, in order of merit
@@ -47,14 +52,14 @@ struct Recommendation {
 };
 
 /// Chooses among the finalists: the smallest array whose share of errors above 3 % at its worst light
-/// level is at most kGoodRatio times the smallest share.
+/// level is at most good_share of the smallest share.
 Recommendation recommend(std::span<const DesignOption> options, const DesignLimits& limits);
 
 /// Returns the finalists that more frames could make the choice: those whose frames do not show, at
-/// 95 %, that their share is larger than kGoodRatio times the smallest one. Empty if the frames settle the
-/// choice: for each of them it shows whether a smaller array is within kGoodRatio of the best, and that the
-/// best is within kGoodRatio of a larger array. Frames of the same number are compared, because
-/// read-outs with equal SLOTS see the same photons in them.
+/// 95 %, that their share is larger than good_share of the smallest one. Empty if the frames settle the
+/// choice: for each of them it shows whether a smaller array's share is at most good_share of the best one,
+/// and that the best share is at most good_share of a larger array's. Frames of the same number are compared,
+/// because read-outs with equal SLOTS see the same photons in them.
 std::vector<std::size_t> contenders(std::span<const DesignOption> options, const DesignLimits& limits);
 
 /// Change of a single limit, e.g. "--max-mm2 1.19", after which this read-out meets all limits.

@@ -12,6 +12,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
 /// An option of made-up worth: share of pixels off, area, frame's clocks.
@@ -103,6 +104,26 @@ TEST(Recommendation, AShareOfOneFactorAboveTheLeastIsGoodEnough) {
   const DesignOption best = option(Readout::kPoolPointer, 0.1000, 1.0);
   EXPECT_EQ(recommend(std::vector{best, option(Readout::kSifh, 0.1049, 0.9)}, {}).chosen, 1U);
   EXPECT_EQ(recommend(std::vector{best, option(Readout::kSifh, 0.1051, 0.9)}, {}).chosen, 0U);
+}
+
+// A few pixels of a large array are no reason for an array of another size.
+TEST(Recommendation, AThousandthOfThePixelsIsGoodEnough) {
+  const DesignOption best = option(Readout::kCoarseHistogram, 0.0, 8.6);
+  EXPECT_EQ(recommend(std::vector{best, option(Readout::kPoolPointer, 0.0009, 1.2)}, {}).chosen, 1U);
+  EXPECT_EQ(recommend(std::vector{best, option(Readout::kPoolPointer, 0.0011, 1.2)}, {}).chosen, 0U);
+  EXPECT_DOUBLE_EQ(good_share(0.0), 0.001);
+  EXPECT_DOUBLE_EQ(good_share(0.02), 0.021);
+  EXPECT_DOUBLE_EQ(good_share(0.1), 0.105);
+}
+
+TEST(Recommendation, FramesOfFewErrorsAreSettledByTheDifference) {
+  const DesignOption large = scored(Readout::kCoarseHistogram, 8.6, {0.0, 0.0, 0.0, 0.0});
+  EXPECT_THAT(
+      contenders(std::vector{large, scored(Readout::kPoolPointer, 1.2, {0.0001, 0.0, 0.0002, 0.0})}, {}),
+      IsEmpty());
+  EXPECT_THAT(
+      contenders(std::vector{large, scored(Readout::kPoolPointer, 1.2, {0.0002, 0.0, 0.0025, 0.001})}, {}),
+      UnorderedElementsAre(0, 1));
 }
 
 TEST(Recommendation, FinalScoresDecideBetweenReadoutsAndScreenedOnesBetweenParameters) {
