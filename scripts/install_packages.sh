@@ -8,7 +8,7 @@ set -euo pipefail
 packages=(
   # C++ build
   cmake ninja-build g++ ccache pkg-config make
-  libcli11-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev librandom123-dev
+  libcli11-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev libkainjow-mustache-dev librandom123-dev
   libboost-dev libmatio-dev libpng-dev libcairo2-dev fonts-dejavu-core zlib1g-dev libtbb-dev libtomlplusplus-dev
   libhdf5-dev libarchive-dev  # reads HDF5 and MAT v7.3, reads and writes NPZ
   pybind11-dev python3-dev  # the Python module

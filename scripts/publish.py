@@ -12,7 +12,7 @@ from dtof_synth import program
 from figures import staleness
 from figures.reports import load
 from figures.small import written_root
-from page.sections import ALL, copy_table, for_reports
+from page.sections import ALL, copy_table, for_reports, page_data, page_data_built
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -41,6 +41,8 @@ def main() -> int:
         measured[entry.name] = None
         for built, committed in report.with_it:
             copy_table(root / "build" / built, root / "reports" / committed)
+        if (data := page_data_built(report, root)).is_file():
+            copy_table(data, root / "reports" / page_data(report))
         written = root / "reports" / report.committed
         written.parent.mkdir(parents=True, exist_ok=True)
         written.write_text(for_reports(report, root), encoding="utf-8")

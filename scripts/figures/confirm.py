@@ -37,10 +37,12 @@ def why_not(root: Path, report: Report) -> str:
 
 
 def digest_of_files(folder: Path, report: Report) -> str:
-    """Digest of the report's files in `folder`/reports, without the lines about their age."""
+    """Digest of the report's files in `folder`, without the lines about their age. Where a page is made from data, the data count: other
+    words change no result."""
     found = hashlib.sha256()
     for name in sorted(report.written):
-        content = (folder / name).read_bytes()
+        data = folder / "reports/data" / f"{Path(name).stem}.page.json"
+        content = data.read_bytes() if name.endswith(".md") and data.is_file() else (folder / name).read_bytes()
         if name.endswith(".md"):
             content = staleness.without_mark(content.decode()).encode()
         found.update(f"{name} {len(content)}\n".encode() + content)

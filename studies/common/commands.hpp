@@ -35,5 +35,6 @@ void add_hostile_scenes_command(CLI::App& app, const std::string& command_line);
 void add_host_filter_command(CLI::App& app, const std::string& command_line);
 void add_design_judgement_command(CLI::App& app, const std::string& command_line);
 void add_enlarge_command(CLI::App& app, const std::string& command_line);
+void add_page_command(CLI::App& app);
 
 }  // namespace dtof

@@ -34,6 +34,7 @@ Program study_program() {
         add_design_judgement_command(app, command_line);
         add_detection_command(app, command_line);
         add_enlarge_command(app, command_line);
+        add_page_command(app);
         add_folder_results(app, command_line);
       }};
 }

@@ -267,7 +267,7 @@ TEST(DesignJudgement, TheReportBeginsWithTheAnswerAndGivesReasons) {
   EXPECT_THAT(report, HasSubstr("Command: `dtof-study design-judgement`"));
   EXPECT_EQ(judgement_csv(judged).cells().size(), 4U);
   const std::vector<PlotSeries> curves = judgement_curves(judged);
-  EXPECT_THAT(curves.front().y, testing::Each(testing::DoubleNear(1.1, 1e-9)));
+  EXPECT_THAT(curves.front().y, testing::Each(testing::DoubleNear(1.11, 1e-9)));
 }
 
 TEST(DesignJudgement, RefusesWhatMakesNoJudgement) {

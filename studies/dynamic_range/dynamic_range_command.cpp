@@ -60,8 +60,8 @@ void run_dynamic_range_command(DynamicRangeOptions options) {
       folder / ("cells_" + digest(settings, is_file ? read_file(options.sensor) : options.sensor));
   const DynamicRange study = run_dynamic_range(settings);
   create_output_folder(folder);
-  const std::string report = dynamic_range_report(settings, study, options.command_line);
-  write_file(folder / "dynamic_range.md", report);
+  write_page(folder, "dynamic_range", "dynamic_range",
+             dynamic_range_page(settings, study, options.command_line));
   create_output_folder(folder / "data");
   write_gzip_file(folder / "data/dynamic_range.csv.gz", dynamic_range_csv(study).csv());
   write_plot(

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -36,14 +37,13 @@ std::size_t of_pool(const std::vector<RangeFinding>& findings) {
   return static_cast<std::size_t>(std::ranges::count_if(findings, about_pool_readout));
 }
 
-std::string cells(std::size_t count) { return fmt::format("{} {}", count, count == 1 ? "entry" : "entries"); }
-
-/// The findings about pool read-outs, the largest differences first.
-std::string list(const std::vector<RangeFinding>& findings, std::string (*better)(const RangeFinding&)) {
+/// The findings about pool read-outs, the largest differences first; nothing if there is none.
+std::optional<PageData> pool_findings_data(const std::vector<RangeFinding>& findings,
+                                           std::string (*better)(const RangeFinding&)) {
   std::vector<RangeFinding> pool;
   std::ranges::copy_if(findings, std::back_inserter(pool), about_pool_readout);
   if (pool.empty()) {
-    return "No entry.\n";
+    return std::nullopt;
   }
   std::ranges::stable_sort(pool, std::greater<>(), [](const RangeFinding& finding) {
     return finding.share.value - finding.better_share.value;
@@ -57,14 +57,17 @@ std::string list(const std::vector<RangeFinding>& findings, std::string (*better
                fmt::format("{}", finding.cell.acquisitions), with_interval(finding.share), better(finding),
                with_interval(finding.better_share)});
   }
-  std::string text = table.markdown();
+  PageData data;
+  data.set("findings", table);
+  std::optional<PageData> left_out;
   if (pool.size() > kMostListed) {
-    text += fmt::format("\n{} more are in the data.\n", pool.size() - kMostListed);
+    left_out = PageData().set("number", "{}", pool.size() - kMostListed);
   }
-  return text;
+  data.part("left_out", std::move(left_out));
+  return data;
 }
 
-std::string counts_table(const RangeSettings& settings, const DynamicRange& study) {
+Table counts_table(const RangeSettings& settings, const DynamicRange& study) {
   Table table({"read-out", "more acquisitions, > 3 %", "> 10 %", "more signal, > 3 %", "> 10 %"});
   for (const ReadoutParameters& readout : settings.readouts) {
     std::vector<std::string> row = {std::string(readout_title(readout.readout))};
@@ -78,10 +81,10 @@ std::string counts_table(const RangeSettings& settings, const DynamicRange& stud
     }
     table.add(std::move(row));
   }
-  return table.markdown();
+  return table;
 }
 
-std::string signal_table(const RangeSettings& settings, const DynamicRange& study, double signal) {
+Table signal_table(const RangeSettings& settings, const DynamicRange& study, double signal) {
   std::vector<std::string> header = {"read-out", "klux"};
   for (const std::uint32_t acquisitions : settings.acquisitions) {
     header.push_back(fmt::format("{}", acquisitions));
@@ -107,7 +110,7 @@ std::string signal_table(const RangeSettings& settings, const DynamicRange& stud
       }
     }
   }
-  return table.markdown();
+  return table;
 }
 
 RangeCounts sum_of(const std::vector<RangeCounts>& seeds) {
@@ -135,7 +138,7 @@ bool harmed(const std::vector<RangeCounts>& seeds) {
          range_share(seeds, &RangeCounts::wide_above_10_percent).interval.high;
 }
 
-std::string full_section(const RangeSettings& settings, const DynamicRange& study) {
+PageData full_counters_data(const RangeSettings& settings, const DynamicRange& study) {
   Table table({"read-out", "signal", "acquisitions", "klux", "full", "> 3 % of these", "of the others",
                "moved", "> 3 / 10 %", "with 16 bits"});
   std::vector<std::string> wrong;
@@ -168,18 +171,13 @@ std::string full_section(const RangeSettings& settings, const DynamicRange& stud
       wrong.push_back(fmt::format("{} ({})", readout_title(readout.readout), fmt::join(where, ", ")));
     }
   }
-  return fmt::format(
-      "The frames are the longest two, the shorter with the signal of the sensor and the longer with the "
-      "strongest "
-      "signal. Full: share of the pixels whose confidence is all ones; for the pointer read-outs this is the "
-      "normal "
-      "state of a sure result. Moved: share of the pixels that have another result with counters of 16 bits, "
-      "on the "
-      "same photons; the last column shows the errors with such counters. All figures in %. Cells in which "
-      "full "
-      "counters moved no result are left out.\n\n"
-      "Full counters give more errors above 10 %, beyond both intervals, in: {}.\n\n{}",
-      wrong.empty() ? "no cell" : fmt::format("{}", fmt::join(wrong, "; ")), table.markdown());
+  PageData data;
+  std::optional<PageData> harmed_cells;
+  if (!wrong.empty()) {
+    harmed_cells = PageData().set("where", "{}", fmt::join(wrong, "; "));
+  }
+  data.part("harmed", std::move(harmed_cells)).set("moved", table);
+  return data;
 }
 
 std::string better_acquisitions(const RangeFinding& finding) {
@@ -190,13 +188,14 @@ std::string better_signal(const RangeFinding& finding) {
 }
 std::string better_readout(const RangeFinding& finding) { return title_of(finding.better_readout); }
 
-/// "poolPointer 3, lean 0".
+/// "poolPointer: 3 entries, poolPointer lean: 1 entry".
 std::string of_each(const RangeSettings& settings, const std::vector<RangeFinding>& findings) {
   std::vector<std::string> texts;
   for (const ReadoutParameters& readout : settings.readouts) {
     if (is_pool_readout(readout.readout)) {
-      texts.push_back(fmt::format("{}: {}", readout_title(readout.readout),
-                                  cells(count_of(findings, readout_name(readout.readout)))));
+      const std::size_t count = count_of(findings, readout_name(readout.readout));
+      texts.push_back(
+          fmt::format("{}: {} {}", readout_title(readout.readout), count, count == 1 ? "entry" : "entries"));
     }
   }
   return fmt::format("{}", fmt::join(texts, ", "));
@@ -274,56 +273,50 @@ Table dynamic_range_csv(const DynamicRange& study) {
   return table;
 }
 
-std::string dynamic_range_report(const RangeSettings& settings, const DynamicRange& study,
-                                 const std::string& command_line) {
-  const std::size_t places = study.grid.size();
-  std::string report = fmt::format(
-      "# Dynamic range\n\n"
-      "Does a read-out get worse with more laser pulses, or with more signal? {} read-outs, {} to {} "
-      "acquisitions, {:g} to "
-      "{:g} klux, signal x {:g} to x {:g} of the sensor `{}`: {} cells.\n\n"
-      "* More acquisitions made a pool read-out worse: {}.\n"
-      "* More signal made a pool read-out worse: {}.\n"
-      "* The coarse histogram is better than a pool read-out at {} acquisitions or more: {}.\n\n"
-      "An entry is a cell and a limit (errors above 3 %, above 10 %) at which a read-out is worse. "
-      "Worse means that the two 95 % intervals do not overlap. A cell is compared with the best cell "
-      "that has fewer acquisitions, or less signal, and is otherwise equal. By chance alone, about one "
-      "in 350 comparisons of equal cells would be an entry. Therefore entries about pool read-outs "
-      "were measured again with other photons, and {} that did not appear again {} left out.\n\n",
-      settings.readouts.size(), std::ranges::min(settings.acquisitions),
-      std::ranges::max(settings.acquisitions), std::ranges::min(settings.klux),
-      std::ranges::max(settings.klux), std::ranges::min(settings.signals), std::ranges::max(settings.signals),
-      settings.sensor.name, places, of_each(settings, study.more_acquisitions),
-      of_each(settings, study.more_signal), kManyAcquisitions, of_each(settings, study.behind),
-      study.unconfirmed, study.unconfirmed == 1 ? "is" : "are");
-  report += "## More acquisitions made it worse\n\n" + list(study.more_acquisitions, better_acquisitions) +
-            "\n## More signal made it worse\n\n" + list(study.more_signal, better_signal) +
-            "\n## The coarse histogram is better\n\n" + list(study.behind, better_readout) +
-            "\n## Entries of every read-out\n\n" + counts_table(settings, study);
-  report += fmt::format("\n![Share of pixels above 3 % over acquisitions](dynamic_range.svg)\n");
+PageData dynamic_range_page(const RangeSettings& settings, const DynamicRange& study,
+                            const std::string& command_line) {
+  PageData data;
+  data.set("readouts", "{}", settings.readouts.size())
+      .set("least_acquisitions", "{}", std::ranges::min(settings.acquisitions))
+      .set("most_acquisitions", "{}", std::ranges::max(settings.acquisitions))
+      .set("least_klux", "{:g}", std::ranges::min(settings.klux))
+      .set("most_klux", "{:g}", std::ranges::max(settings.klux))
+      .set("least_signal", "{:g}", std::ranges::min(settings.signals))
+      .set("most_signal", "{:g}", std::ranges::max(settings.signals))
+      .set("sensor", "{}", settings.sensor.name)
+      .set("cells", "{}", study.grid.size())
+      .set("more_acquisitions_entries", "{}", of_each(settings, study.more_acquisitions))
+      .set("more_signal_entries", "{}", of_each(settings, study.more_signal))
+      .set("many_acquisitions", "{}", kManyAcquisitions)
+      .set("behind_entries", "{}", of_each(settings, study.behind))
+      .set("unconfirmed", "{}", study.unconfirmed)
+      .flag("one_unconfirmed", study.unconfirmed == 1)
+      .part("more_acquisitions", pool_findings_data(study.more_acquisitions, better_acquisitions))
+      .part("more_signal", pool_findings_data(study.more_signal, better_signal))
+      .part("behind", pool_findings_data(study.behind, better_readout))
+      .set("entries_of_readouts", counts_table(settings, study));
+  std::vector<PageData> signals;
   for (const double signal : settings.signals) {
-    report +=
-        fmt::format("\n## Signal x {:g}\n\nPixels above 3 % / above 10 %, in %, over acquisitions:\n\n{}",
-                    signal, signal_table(settings, study, signal));
+    signals.push_back(
+        PageData().set("signal", "{:g}", signal).set("errors", signal_table(settings, study, signal)));
   }
+  data.list("signals", std::move(signals));
+  std::optional<PageData> full;
   if (!study.full.empty()) {
-    report += "\n## Full counters\n\n" + full_section(settings, study);
+    full = full_counters_data(settings, study);
   }
-  report += fmt::format(
-      "\n## How it was measured\n\n"
-      "Models, exact photons. Scenes {}: the {} columns and {} rows around the centre of the sensor's "
-      "{} x {} pixels; {} columns, an engine of poolPointer, are judged. {} seeds from {} on; {} "
-      "pixels a cell. Each read-out has its own look-up table for each cell "
-      "(`frame/flat_calibration.hpp`, 32 pixels a distance). Intervals come from the spread of the "
-      "seeds, and are at least Wilson's for independent pixels. The pixels of a pool read-out depend "
-      "on each other, the seeds do not.\n\n"
-      "Every cell of every read-out, with intervals: "
-      "[data/dynamic_range.csv.gz](data/dynamic_range.csv.gz).\n\n"
-      "Command: `{}`\n",
-      scene_names(settings), engine_columns_read(), settings.rows, settings.sensor.columns,
-      settings.sensor.rows, engine_columns_judged(), settings.seeds, settings.seed,
-      sum_of(study.grid.begin()->second.begin()->second).pixels, command_line);
-  return report;
+  data.part("full_counters", std::move(full))
+      .set("scenes", "{}", scene_names(settings))
+      .set("columns_read", "{}", engine_columns_read())
+      .set("rows", "{}", settings.rows)
+      .set("sensor_columns", "{}", settings.sensor.columns)
+      .set("sensor_rows", "{}", settings.sensor.rows)
+      .set("columns_judged", "{}", engine_columns_judged())
+      .set("seeds", "{}", settings.seeds)
+      .set("seed", "{}", settings.seed)
+      .set("pixels", "{}", sum_of(study.grid.begin()->second.begin()->second).pixels)
+      .set("command", "{}", command_line);
+  return data;
 }
 
 }  // namespace dtof

@@ -7,12 +7,13 @@
 #include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
 #include "dynamic_range/dynamic_range.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
-/// Report in Markdown, faults first. Every sentence with a result is computed from `study`.
-std::string dynamic_range_report(const RangeSettings& settings, const DynamicRange& study,
-                                 const std::string& command_line);
+/// Data of the page dynamic_range.mustache.
+PageData dynamic_range_page(const RangeSettings& settings, const DynamicRange& study,
+                            const std::string& command_line);
 
 /// All cells and read-outs.
 Table dynamic_range_csv(const DynamicRange& study);

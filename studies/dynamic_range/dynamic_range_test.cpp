@@ -135,7 +135,8 @@ TEST_F(DynamicRangeTest, FindsAReadoutWhoseCountersFill) {
   EXPECT_EQ(study.more_acquisitions[0].readout, "hispointer1");
   EXPECT_EQ(study.more_acquisitions[0].cell.acquisitions, 3000U);
   EXPECT_EQ(pool_findings(study), 0U);
-  EXPECT_THAT(dynamic_range_report(settings, study, "command"), HasSubstr("No entry."));
+  EXPECT_THAT(page_text("dynamic_range", dynamic_range_page(settings, study, "command")),
+              HasSubstr("No entry."));
 }
 
 TEST_F(DynamicRangeTest, ComparesFullCountersWithWideOnes) {
@@ -148,7 +149,7 @@ TEST_F(DynamicRangeTest, ComparesFullCountersWithWideOnes) {
   EXPECT_GT(full.full, full.pixels / 2);
   EXPECT_GT(full.changed, full.pixels / 2);
   EXPECT_LT(full.wide_above_3_percent, full.above_3_percent);
-  EXPECT_THAT(dynamic_range_report(settings, study, "command"),
+  EXPECT_THAT(page_text("dynamic_range", dynamic_range_page(settings, study, "command")),
               HasSubstr("counters give more errors above 10 %, beyond both intervals, in: coarse histogram"));
 
   settings.store = folder_ / "wide";
@@ -156,7 +157,7 @@ TEST_F(DynamicRangeTest, ComparesFullCountersWithWideOnes) {
   const DynamicRange wide = run_dynamic_range(settings);
   EXPECT_TRUE(wide.more_acquisitions.empty());
   EXPECT_EQ(wide.full.at({1.0, 2.0, 3000}).at("coarsehistogram").front().changed, 0U);
-  EXPECT_THAT(dynamic_range_report(settings, wide, "command"),
+  EXPECT_THAT(page_text("dynamic_range", dynamic_range_page(settings, wide, "command")),
               HasSubstr("beyond both intervals, in: no cell"));
 }
 
@@ -242,7 +243,7 @@ TEST(DynamicRangeLists, ReportListsTheEntriesOfPoolReadouts) {
   study.more_acquisitions = worse_with_more(study.grid, Grown::kAcquisitions);
   study.behind = behind_coarse_histogram(study.grid, kManyAcquisitions);
   EXPECT_EQ(pool_findings(study), 2U);
-  const std::string report = dynamic_range_report(settings, study, "the command");
+  const std::string report = page_text("dynamic_range", dynamic_range_page(settings, study, "the command"));
   EXPECT_THAT(report, HasSubstr("More acquisitions made a pool read-out worse: poolPointer: 1 entry."));
   EXPECT_THAT(report, HasSubstr("More signal made a pool read-out worse: poolPointer: 0 entries."));
   EXPECT_THAT(report, HasSubstr("54.30 ("));

@@ -115,7 +115,7 @@ TEST(DesignPage, ASmallerArrayThatIsAsGoodIsTheReason) {
   EXPECT_THAT(text, HasSubstr("at most 1.05 times the 10.00 [9.50, 10.50] % of poolPointer"));
   EXPECT_THAT(text, HasSubstr("smaller array (0.70 of 1.90 mm2)"));
   EXPECT_THAT(
-      design_recommendation(request(), result(request(), {option(Readout::kCoarseHistogram, 0.0, 8.6),
+      design_recommendation(request(), result(request(), {option(Readout::kPoolPointer, 0.0, 1.9),
                                                           option(Readout::kPoolPointerLean, 0.0008, 0.7)})),
       HasSubstr("at most 0.1 % of the pixels more than the"));
 }
