@@ -54,7 +54,8 @@ void run_design_judgement(DesignJudgementOptions options) {
   for (const JudgedSensor& one : judged) {
     write_file(folder / "sensors" / (one.sensor.request.bench.sensor.name + ".toml"), one.sensor.toml);
   }
-  write_file(folder / "design_judgement.md", judgement_report(settings, judged, options.command_line));
+  write_page(folder, "design_judgement", "design_judgement",
+             judgement_page(settings, judged, options.command_line));
   write_file(folder / "design_judgement.csv", judgement_csv(judged).csv());
   write_plot(folder / "design_judgement.svg", judgement_curves(judged),
              {.title = "Recommendation of dtof design: pixels off by more than 3 %, in the worst light",

@@ -5,6 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace dtof {
 namespace {
@@ -34,15 +36,6 @@ std::size_t count(const std::vector<JudgedSensor>& judged, Verdict verdict) {
       judged, [=](const JudgedSensor& one) { return one.judgement.verdict() == verdict; }));
 }
 
-std::string judgement_answer(const std::vector<JudgedSensor>& judged) {
-  const std::size_t within = count(judged, Verdict::kWithin);
-  const std::size_t undecided = count(judged, Verdict::kUndecided);
-  return fmt::format(
-      "**For {} of {} random sensors the recommendation of `dtof design` is about as good as the best of a "
-      "full sweep.** As good or not told from it by the interval: {} of {}. Worse beyond the interval: {}.\n",
-      within, judged.size(), within + undecided, judged.size(), count(judged, Verdict::kBeyond));
-}
-
 Table sensor_table(const std::vector<JudgedSensor>& judged) {
   Table table({"no.", "recommended", "best of the sweep", "verdict", "ratio", "> 3 % in %, recommended",
                "best", "mm2, recommended", "best", "place in the sweep"},
@@ -59,111 +52,91 @@ Table sensor_table(const std::vector<JudgedSensor>& judged) {
   return table;
 }
 
-/// Why the search did not recommend the best of the sweep.
-std::string reason(const SensorJudgement& one) {
-  if (!one.keeps_limits) {
-    return "the recommendation misses a limit";
-  }
-  const std::string best = share_percent(one.search_best);
-  const std::string other = share_percent(one.search_other);
+/// Why the search did not recommend the best of the sweep: shows one of the template's reasons.
+PageData miss_data(std::size_t number, const SensorJudgement& one) {
+  const bool kept = one.keeps_limits;
+  const bool in_screening = kept && one.lost == Lost::kInScreening;
+  const bool in_final = kept && one.lost == Lost::kInFinal;
   const bool smaller = one.search_best <= one.search_other;
-  switch (one.lost) {
-    case Lost::kNotRead:
-      return "the search did not read the best; it reads each set of parameters only with the most SLOTS "
-             "that keep the limits";
-    case Lost::kInScreening:
-      return smaller ? fmt::format(
-                           "in the search's one frame the best had {} % and other parameters of its "
-                           "read-out {} %; their intervals overlap, and the smaller array went on",
-                           best, other)
-                     : fmt::format(
-                           "in the search's one frame the best had {} %, and other parameters of its "
-                           "read-out, which went on, {} %",
-                           best, other);
-    case Lost::kInFinal:
-      return fmt::format("in the search's last frames the best had {} % and the recommendation {} %{}", best,
-                         other, smaller ? "; the smaller array won, because its share was small enough" : "");
-    case Lost::kNothing:
-      break;
-  }
-  return "the recommendation is the best of the sweep";
+  PageData data;
+  data.set("number", "{}", number)
+      .set("verdict", "{}", verdict_text(one.verdict()))
+      .set("recommended", "{}", one.recommended.name)
+      .set("best", "{}", one.best.name)
+      .set("best_share", "{}", share_percent(one.search_best))
+      .set("other_share", "{}", share_percent(one.search_other))
+      .flag("limit_missed", !one.keeps_limits)
+      .flag("not_read", kept && one.lost == Lost::kNotRead)
+      .flag("in_screening_smaller", in_screening && smaller)
+      .flag("in_screening", in_screening && !smaller)
+      .flag("in_final", in_final)
+      .flag("smaller_won", in_final && smaller);
+  return data;
 }
 
-std::string misses(const std::vector<JudgedSensor>& judged) {
-  std::string text;
+std::vector<PageData> misses_data(const std::vector<JudgedSensor>& judged) {
+  std::vector<PageData> misses;
   for (std::size_t i = 0; i < judged.size(); ++i) {
-    const SensorJudgement& one = judged[i].judgement;
-    if (one.verdict() != Verdict::kWithin) {
-      text += fmt::format("* {} ({}): {} instead of {}. Reason: {}.\n", i + 1, verdict_text(one.verdict()),
-                          one.recommended.name, one.best.name, reason(one));
+    if (judged[i].judgement.verdict() != Verdict::kWithin) {
+      misses.push_back(miss_data(i + 1, judged[i].judgement));
     }
   }
-  return text.empty() ? "* None.\n" : text;
+  return misses;
 }
 
-std::string sensors_text(const std::vector<JudgedSensor>& judged) {
-  std::string text;
+std::vector<PageData> drawn_data(const std::vector<JudgedSensor>& judged) {
+  std::vector<PageData> drawn;
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const RandomSensor& one = judged[i].sensor;
     const SensorJudgement& judgement = judged[i].judgement;
-    text += fmt::format(
-        "{}. {}; {}. Of {} candidates {} keep the limits; the search read {}.{}\n", i + 1,
-        sensor_line(one.request.bench.sensor),
-        one.options.empty() ? "default options" : "`" + one.options + "`", judgement.grid, judgement.kept,
-        judgement.read,
-        one.refused > 0 ? fmt::format(" Drawn again {} times: no read-out suited.", one.refused) : "");
+    std::optional<PageData> again;
+    if (one.refused > 0) {
+      again = PageData().set("times", "{}", one.refused);
+    }
+    drawn.emplace_back()
+        .set("number", "{}", i + 1)
+        .set("sensor", "{}", sensor_line(one.request.bench.sensor))
+        .flag("default_options", one.options.empty())
+        .set("options", "{}", one.options)
+        .set("grid", "{}", judgement.grid)
+        .set("kept", "{}", judgement.kept)
+        .set("read", "{}", judgement.read)
+        .part("drawn_again", std::move(again));
   }
-  return text;
+  return drawn;
 }
 
 }  // namespace
 
-std::string judgement_report(const JudgementSettings& settings, const std::vector<JudgedSensor>& judged,
-                             const std::string& command_line) {
+PageData judgement_page(const JudgementSettings& settings, const std::vector<JudgedSensor>& judged,
+                        const std::string& command_line) {
   const DesignRequest usual;
   std::vector<std::string_view> scenes;
   for (const Scene scene : usual.bench.scenes) {
     scenes.push_back(scene_name(scene));
   }
-  return fmt::format(
-      "# Judgement of `dtof design`\n\n{}\n"
-      "![Share of the recommendation against the best share](design_judgement.svg)\n\n{}\n"
-      "* Place in the sweep: 1 is the smallest share in the sweep's own photons.\n"
-      "* Verdict: *within*: the ratio is at most {:g}, or the share is at most {:g} % of the pixels larger "
-      "than "
-      "the best; *undecided*: both are larger, and the interval of the ratio reaches {:g}; *beyond*: the "
-      "whole "
-      "interval is larger, too.\n\n"
-      "## Not within\n\n{}\n"
-      "The search takes the smallest array whose measured share is at most {:g} times the smallest one, or "
-      "at "
-      "most {:g} % of the pixels larger. It therefore gives up a little accuracy for area on "
-      "purpose.\n\n"
-      "## How it is judged\n\n"
-      "* Recommendation: the function that `dtof design` calls, with the default options and the options of "
-      "the sensor in the list below; scenes {}, {} klux, seed {}.\n"
-      "* Objective: the share of pixels that are more than 3 % off in the worst light, among the candidates "
-      "that keep the limits of area, power, frame rate and clock. `dtof design` minimises this share.\n"
-      "* Sweep: all candidates of the grid that keep the limits, with every value of SLOTS; the search reads "
-      "only the most SLOTS. The judge computes costs and limits of the whole grid itself, by the same "
-      "estimates. Each candidate is read in at least {:g} pixels a light.\n"
-      "* Final: the {} best of the sweep and the recommendation are read again with {} seeds, at least {:g} "
-      "pixels a seed and light. The best is the smallest share in the final. The sweep, the final and the "
-      "search have different seeds: photons, look-up tables and poles differ.\n"
-      "* Ratio: share of the recommendation over the best share, both means over the seeds of the final, "
-      "with an interval at 95 % (delta method over pairs with the same seed). A share below one pixel counts "
-      "as one pixel. The best is the smallest of several measured shares, so that the ratio is at least 1, "
-      "and too large rather than too small.\n"
-      "* Sensors: drawn from seed {}; most numbers evenly in their logarithm: {}. A quarter of the draws has "
-      "no limit but the default frame rate, a quarter each a limit of area or power or a high frame rate; "
-      "the limit is a random quantile, 15 to 85 %, of the grid's costs.\n\n"
-      "## Sensors\n\nSignal: events a pulse from a white target at R in m. The command writes each sensor "
-      "file to `sensors/` in its output folder.\n\n{}\nCommand: `{}`\n",
-      judgement_answer(judged), sensor_table(judged).markdown(), kGoodRatio, 100.0 * kGoodDifference,
-      kGoodRatio, misses(judged), kGoodRatio, 100.0 * kGoodDifference, fmt::join(scenes, " and "),
-      fmt::join(usual.bench.klux, " and "), usual.bench.seed, settings.sweep_pixels, settings.finalists,
-      settings.final_seeds, settings.final_pixels, settings.seed, ranges_text(settings.ranges),
-      sensors_text(judged), command_line);
+  const std::size_t within = count(judged, Verdict::kWithin);
+  PageData data;
+  data.set("within", "{}", within)
+      .set("sensors", "{}", judged.size())
+      .set("within_or_undecided", "{}", within + count(judged, Verdict::kUndecided))
+      .set("beyond", "{}", count(judged, Verdict::kBeyond))
+      .set("judgements", sensor_table(judged))
+      .set("good_ratio", "{:g}", kGoodRatio)
+      .set("good_difference", "{:g}", kPerCent * kGoodDifference)
+      .list("misses", misses_data(judged))
+      .set("scenes", "{}", fmt::join(scenes, " and "))
+      .set("klux", "{}", fmt::join(usual.bench.klux, " and "))
+      .set("search_seed", "{}", usual.bench.seed)
+      .set("sweep_pixels", "{:g}", settings.sweep_pixels)
+      .set("finalists", "{}", settings.finalists)
+      .set("final_seeds", "{}", settings.final_seeds)
+      .set("final_pixels", "{:g}", settings.final_pixels)
+      .set("seed", "{}", settings.seed)
+      .set("ranges", "{}", ranges_text(settings.ranges))
+      .list("drawn", drawn_data(judged))
+      .set("command", "{}", command_line);
+  return data;
 }
 
 Table judgement_csv(const std::vector<JudgedSensor>& judged) {

@@ -7,12 +7,13 @@
 #include "design_judgement/design_judgement.hpp"
 #include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
-/// The page as Markdown; the answer comes first.
-std::string judgement_report(const JudgementSettings& settings, const std::vector<JudgedSensor>& judged,
-                             const std::string& command_line);
+/// Data of the page design_judgement.mustache.
+PageData judgement_page(const JudgementSettings& settings, const std::vector<JudgedSensor>& judged,
+                        const std::string& command_line);
 /// A line for each sensor.
 Table judgement_csv(const std::vector<JudgedSensor>& judged);
 /// Share of the recommendation against the best share, with the line of equal shares.

@@ -253,7 +253,8 @@ TEST(DesignJudgement, TheReportBeginsWithTheAnswerAndGivesReasons) {
     judged.back().sensor.request = small_request();
   }
   const std::string report =
-      judgement_report(small_design_judgement_study(), judged, "dtof-study design-judgement");
+      page_text("design_judgement",
+                judgement_page(small_design_judgement_study(), judged, "dtof-study design-judgement"));
   EXPECT_THAT(report, HasSubstr("**For 1 of 3 random sensors"));
   EXPECT_THAT(
       report,
@@ -264,6 +265,9 @@ TEST(DesignJudgement, TheReportBeginsWithTheAnswerAndGivesReasons) {
   EXPECT_THAT(report,
               HasSubstr("* 3 (beyond): sifh --nb 5 instead of poolpointer. Reason: the search did not"));
   EXPECT_THAT(report, Not(HasSubstr("* 1 (")));
+  EXPECT_THAT(report, HasSubstr("1.450 %; the smaller array won, because its share was small enough.\n"));
+  EXPECT_THAT(report,
+              HasSubstr("; default options. Of 114 candidates 57 keep the limits; the search read 60.\n"));
   EXPECT_THAT(report, HasSubstr("Command: `dtof-study design-judgement`"));
   EXPECT_EQ(judgement_csv(judged).cells().size(), 4U);
   const std::vector<PlotSeries> curves = judgement_curves(judged);
