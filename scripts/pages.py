@@ -9,14 +9,18 @@ from pathlib import Path
 
 from dtof_synth import program
 from figures import staleness
-from page.sections import ALL, Report, as_committed, page_data
+from figures.reports import page_data
+from page.sections import ALL, Report, as_committed
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
 def from_data(report: Report, study: str, root: Path) -> str:
     """The page as the template makes it, in its form in reports/, with the committed page's line about its age."""
-    text = subprocess.run([study, "page", root / "reports" / page_data(report)], check=True, capture_output=True, text=True).stdout
+    made = subprocess.run([study, "page", root / "reports" / page_data(report.committed)], capture_output=True, text=True)
+    if made.returncode:
+        sys.exit(made.stderr.strip())
+    text = made.stdout
     committed = (root / "reports" / report.committed).read_text(encoding="utf-8")
     mark = committed.removesuffix(staleness.without_mark(committed))
     return mark + as_committed(report, text)
@@ -29,7 +33,7 @@ def main() -> int:
         return 2
     differing = 0
     for report in ALL:
-        if not report.built or not (ROOT / "reports" / page_data(report)).is_file():
+        if not report.built or not (ROOT / "reports" / page_data(report.committed)).is_file():
             continue
         page = ROOT / "reports" / report.committed
         text = from_data(report, arguments[0], ROOT)
@@ -37,7 +41,7 @@ def main() -> int:
             continue
         differing += 1
         if "--check" in sys.argv:
-            print(f"reports/{report.committed} is not what its template makes of {page_data(report)}: make pages")
+            print(f"reports/{report.committed} is not what its template makes of {page_data(report.committed)}: make pages")
         else:
             page.write_text(text, encoding="utf-8")
             print(f"reports/{report.committed} has other words")

@@ -10,9 +10,9 @@ from pathlib import Path
 
 from dtof_synth import program
 from figures import staleness
-from figures.reports import load
+from figures.reports import load, page_data
 from figures.small import written_root
-from page.sections import ALL, copy_table, for_reports, page_data, page_data_built
+from page.sections import ALL, copy_table, for_reports, page_data_built
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -42,7 +42,7 @@ def main() -> int:
         for built, committed in report.with_it:
             copy_table(root / "build" / built, root / "reports" / committed)
         if (data := page_data_built(report, root)).is_file():
-            copy_table(data, root / "reports" / page_data(report))
+            copy_table(data, root / "reports" / page_data(report.committed))
         written = root / "reports" / report.committed
         written.parent.mkdir(parents=True, exist_ok=True)
         written.write_text(for_reports(report, root), encoding="utf-8")

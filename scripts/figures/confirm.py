@@ -12,7 +12,7 @@ import tomllib
 from pathlib import Path
 
 from . import staleness
-from .reports import Report, inputs, not_covered
+from .reports import Report, inputs, not_covered, page_data
 from .small import FOLDER
 from .source_tree import SourceTree
 
@@ -41,7 +41,7 @@ def digest_of_files(folder: Path, report: Report) -> str:
     words change no result."""
     found = hashlib.sha256()
     for name in sorted(report.written):
-        data = folder / "reports/data" / f"{Path(name).stem}.page.json"
+        data = folder / "reports" / page_data(name.removeprefix("reports/"))
         content = data.read_bytes() if name.endswith(".md") and data.is_file() else (folder / name).read_bytes()
         if name.endswith(".md"):
             content = staleness.without_mark(content.decode()).encode()
@@ -60,6 +60,7 @@ def small_run(root: Path, report: Report) -> str | None:
         return hashlib.sha256(finished.stdout + rest.encode()).hexdigest()[:16] if finished.returncode == 0 and finished.stdout else None
     for name in report.written:
         (folder / name).unlink(missing_ok=True)
+        (folder / "reports" / page_data(name.removeprefix("reports/"))).unlink(missing_ok=True)
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / f"{report.name}.log").open("w", encoding="utf-8") as log:
         done = subprocess.run(f"{report.command} SMALL=1", shell=True, cwd=root, stdout=log, stderr=subprocess.STDOUT,

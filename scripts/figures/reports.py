@@ -37,6 +37,11 @@ class Report:
         return tuple(f"reports/{name}" for name in (*self.pages, *self.files))
 
 
+def page_data(page: str) -> str:
+    """The file of reports/ with the values of a page of reports/, from which a template makes the page."""
+    return f"data/{page.removesuffix('.md').replace('/', '_')}.page.json"
+
+
 @dataclass(frozen=True)
 class Inputs:
     """Inputs of a report: a digest of all files, and one for the files of each folder."""

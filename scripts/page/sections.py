@@ -154,13 +154,8 @@ def as_committed(report: Report, text: str) -> str:
     return shortened(report, text) if report.left_out or report.text_only else text
 
 
-def page_data(report: Report) -> str:
-    """The file of reports/ with the values of the report's page, from which its template makes the page."""
-    return f"data/{Path(report.committed).stem}.page.json"
-
-
 def page_data_built(report: Report, root: Path) -> Path:
-    """The same file, as the report's command leaves it."""
+    """The values of the report's page, from which its template makes the page, as the report's command leaves them."""
     assert report.built is not None
     return (root / "build" / report.built).with_suffix(".page.json")
 

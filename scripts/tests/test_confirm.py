@@ -50,6 +50,17 @@ class Confirmations(Project):
         page = (self.root / "reports/pareto.md").read_text(encoding="utf-8")
         self.assertEqual(staleness.without_mark(page), FILES["reports/pareto.md"])
 
+    def test_where_a_page_is_made_from_data_other_words_change_no_digest(self) -> None:
+        report = self.reports()["pareto"]
+        before = confirm.digest_of_files(self.root, report)
+        self.write("reports/data/pareto.page.json", "{}")
+        with_data = confirm.digest_of_files(self.root, report)
+        self.assertNotEqual(with_data, before)
+        self.write("reports/pareto.md", "# Other words\n")
+        self.assertEqual(confirm.digest_of_files(self.root, report), with_data)
+        self.write("reports/data/pareto.page.json", "[]")
+        self.assertNotEqual(confirm.digest_of_files(self.root, report), with_data)
+
     def test_a_change_that_alters_a_byte_stays_stale(self) -> None:
         self.confirm()
         self.change("2")

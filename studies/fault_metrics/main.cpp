@@ -61,10 +61,10 @@ void run(const Options& options, const std::string& command_line) {
     }
   }
   const dtof::MetricReport report = dtof::report_metrics(results, costs, options.study, command_line);
-  dtof::write_file(folder / "fault_metrics.md", report.markdown);
+  dtof::write_page(folder, "fault_metrics", "fault_metrics", report.page);
   dtof::write_file(folder / "fault_metrics.csv", report.csv);
   std::filesystem::remove_all(kept);
-  fmt::print("{}Seed {}, {:.0f} s. Written to {}\n", report.conclusions, options.study.seed, seconds,
+  fmt::print("Seed {}, {:.0f} s. Written to {}\n", options.study.seed, seconds,
              (folder / "fault_metrics.md").string());
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -20,53 +21,6 @@ namespace {
 constexpr double kPercent = 100.0;
 constexpr std::array kLives = {FaultLife::kEvent, FaultLife::kStuck};
 constexpr std::size_t kLargestClasses = 3;
-
-// Rows, columns, acquisitions, faults, command, seed, conclusions, and the tables.
-constexpr std::string_view kPage = R"(# Fault metrics
-
-Which single faults in logic and SRAM make a result wrong, and which of them the protection detects within one frame. Netlists of
-small arrays ({} columns of {} pixels) receive {} acquisitions of the scene `room`, preset `thesis`, 14 klux. Up to {} faults are
-drawn for each life of a fault and each kind of element of each part. Command: `{}`, seed {}.
-
-{}
-* **Single event**: a flip-flop or a stored bit changes its state in one random clock, or the output of a gate is inverted for one clock.
-* **Stuck-at**: the output of a gate or a flip-flop, a data output of an SRAM, or a stored bit is 0, or 1, in every clock.
-* **Harmful**: a word of the result stream is wrong, missing or too much, or the frame does not end within an eighth more than its clocks. A word
-  is wrong if one of its bits differs from the frame without a fault, the confidence included.
-* **Detected**: in the frame by `parity_error_o`, by `error_o`, or by what the receiver finds (a missing or surplus result, a result with
-  the row or column of another pixel, no end of the frame). A stuck-at fault is also detected if the frame of the self-test has another result.
-  "Beyond 3 %" are harmful faults that move the position of a pixel by more than 3 %, or lose a pixel.
-* **Single-point fault metric** (SPFM) and **latent fault metric** (LFM) are those of ISO 26262-5, annex C:
-  SPFM = 1 - undetected harmful faults / all faults; LFM = 1 - latent faults / (all faults - undetected harmful faults). A latent fault is
-  harmless, found neither by the frame nor by the self-test, and hides one of the flipped bits that parity otherwise detects. A flip of each SRAM
-  is tried.
-* **Weights**: every gate, flip-flop and stored bit has the same fault rate. Shares are those of an array of {} columns of {} pixels: elements
-  of columns count {} times per column of the small array, stored bits in proportion to the pixels, and the control once.
-* **Not in the netlist**: TDCs, clock and reset trees, delays, bridges between wires, and what surrounds the array in `dtof_subsystem`. A fault
-  of two bits of a word, which parity does not detect, is no single fault.
-* In brackets: 95 % intervals (Wilson's, with the number of faults that would have the same variance in one stratum).
-
-## Metrics
-
-Detected: share of the harmful faults that are detected, of all, of those in gates and flip-flops, and of those beyond 3 %.
-
-{}
-## Detected by
-
-Harmful faults by the first means that detects them, in %.
-
-{}
-## Parts
-
-Arrays with parity. Elements: of the full array. Undetected: share of all undetected harmful faults of this life, in %.
-
-{}
-## Cost of parity
-
-Area, power at 330 MHz (typical corner, stated activity) and highest clock in the slow corner are those of [area](area.md) and
-[timing](timing.md). Clocks of a frame are those of the small arrays. A "-" is a configuration that is not synthesised.
-
-{})";
 
 std::string title(const ArrayResult& result) {
   return std::string(readout_title(parse_readout(result.readout)));
@@ -87,7 +41,7 @@ std::string percent(const Estimate& share) {
                      percent(share.interval.high));
 }
 
-std::string metric_table(std::span<const ArrayResult> results) {
+Table metric_table(std::span<const ArrayResult> results) {
   Table table({"read-out", "parity", "fault", "harmful, %", "detected of them, %", "of those in logic, %",
                "beyond 3 %, %", "SPFM, %", "LFM, %"},
               3);
@@ -100,10 +54,10 @@ std::string metric_table(std::span<const ArrayResult> results) {
                  percent(metrics.single_point), has_latent ? percent(metrics.latent) : "-"});
     }
   }
-  return table.markdown();
+  return table;
 }
 
-std::string means_table(std::span<const ArrayResult> results) {
+Table means_table(std::span<const ArrayResult> results) {
   Table table(
       {"read-out", "parity", "fault", "parity_error_o", "error_o", "receiver", "self-test", "nothing"}, 3);
   for (const ArrayResult& result : results) {
@@ -121,7 +75,7 @@ std::string means_table(std::span<const ArrayResult> results) {
                  share([](const FaultCounts& c) { return c.undetected; })});
     }
   }
-  return table.markdown();
+  return table;
 }
 
 /// Strata of one part and one kind of element.
@@ -151,7 +105,7 @@ double undetected_sum(std::span<const StratumResult> strata, FaultLife life) {
   return weighted_sum(strata, life, [](const FaultCounts& c) { return c.undetected; });
 }
 
-std::string part_table(std::span<const ArrayResult> results) {
+Table part_table(std::span<const ArrayResult> results) {
   Table table({"read-out", "part", "elements", "single events: harmful, %", "detected, %", "undetected, %",
                "stuck-at: harmful, %", "detected, %", "undetected, %", "latent, %"},
               2);
@@ -181,7 +135,7 @@ std::string part_table(std::span<const ArrayResult> results) {
       table.add(cells);
     }
   }
-  return table.markdown();
+  return table;
 }
 
 std::string pair_text(double without, double with, int digits) {
@@ -195,8 +149,7 @@ const ArrayResult* without_parity(std::span<const ArrayResult> results, const Ar
   return found == results.end() ? nullptr : &*found;
 }
 
-std::string cost_table(std::span<const ArrayResult> results,
-                       const std::map<std::string, ProtectionCost>& costs) {
+Table cost_table(std::span<const ArrayResult> results, const std::map<std::string, ProtectionCost>& costs) {
   Table table({"read-out", "mm2 without / with", "more, %", "mW without / with", "MHz without / with",
                "clocks of a frame without / with"});
   for (const ArrayResult& result : results) {
@@ -215,7 +168,7 @@ std::string cost_table(std::span<const ArrayResult> results,
     cells.push_back(fmt::format("{} / {}", without->clocks, result.clocks));
     table.add(cells);
   }
-  return table.markdown();
+  return table;
 }
 
 /// "gates of columns (61 %), ..." of the classes with most undetected harm.
@@ -236,50 +189,63 @@ std::string largest_classes(const ArrayResult& result, FaultLife life) {
   return text;
 }
 
-std::string verdict(const Estimate& detected) {
+/// The share of detected faults and whether it meets the goal; nothing if no fault was harmful.
+std::optional<PageData> verdict_data(const Estimate& detected) {
   if (std::isnan(detected.value)) {
-    return "no fault was harmful";
+    return std::nullopt;
   }
-  const std::string_view met = detected.interval.low >= kDetectedGoal ? "the goal is met"
-                               : detected.interval.high < kDetectedGoal
-                                   ? "the goal is missed"
-                                   : "the interval does not decide whether the goal is met";
-  return fmt::format("{} %, {}", percent(detected), met);
+  const bool met = detected.interval.low >= kDetectedGoal;
+  const bool missed = detected.interval.high < kDetectedGoal;
+  PageData data;
+  data.set("detected", "{}", percent(detected))
+      .flag("met", met)
+      .flag("missed", missed)
+      .flag("undecided", !met && !missed);
+  return data;
 }
 
-std::string conclude(std::span<const ArrayResult> results,
-                     const std::map<std::string, ProtectionCost>& costs) {
-  std::string text = fmt::format(
-      "Goals: at least {:.0f} % of the harmful single faults are detected within one "
-      "frame; parity takes at most {:.0f} % of the area.\n\n",
-      kPercent * kDetectedGoal, kPercent * kAreaGoal);
+PageData life_data(const ArrayResult& result, FaultLife life) {
+  const SafetyMetrics metrics = safety_metrics(result, life);
+  std::optional<PageData> undetected;
+  if (undetected_sum(result.strata, life) > 0.0) {
+    undetected = PageData().set("largest_parts", "{}", largest_classes(result, life));
+  }
+  std::optional<PageData> stuck;
+  if (life == FaultLife::kStuck) {
+    stuck = PageData().set("in_frame", "{}", percent(metrics.in_frame));
+  }
+  PageData data;
+  data.set("life", "{}", life_title(life))
+      .part("harmful", verdict_data(metrics.detected))
+      .set("in_logic", "{}", percent(metrics.in_logic))
+      .part("undetected", std::move(undetected))
+      .part("stuck", std::move(stuck));
+  return data;
+}
+
+/// What the page concludes about each array with parity.
+std::vector<PageData> arrays_data(std::span<const ArrayResult> results,
+                                  const std::map<std::string, ProtectionCost>& costs) {
+  std::vector<PageData> arrays;
   for (const ArrayResult& result : results) {
     if (!result.parity) {
       continue;
     }
+    std::vector<PageData> lives;
     for (const FaultLife life : kLives) {
-      const SafetyMetrics metrics = safety_metrics(result, life);
-      text +=
-          fmt::format("* {} with parity, {}: detected harmful faults {}; of those in logic {} %.",
-                      title(result), life_title(life), verdict(metrics.detected), percent(metrics.in_logic));
-      if (undetected_sum(result.strata, life) > 0.0) {
-        text += fmt::format(" Most of the others: {}.", largest_classes(result, life));
-      }
-      if (life == FaultLife::kStuck) {
-        text += fmt::format(" Without the self-test, {} % are detected.", percent(metrics.in_frame));
-      }
-      text += '\n';
+      lives.push_back(life_data(result, life));
     }
-    const auto cost = costs.find(result.readout);
-    if (cost == costs.end()) {
-      text += fmt::format("* {}: the array with parity is not synthesised.\n", title(result));
-    } else {
-      const double share = cost->second.area_share();
-      text += fmt::format("* {}: parity takes {} % of the area, the goal is {}.\n", title(result),
-                          percent(share), share <= kAreaGoal ? "met" : "missed");
+    std::optional<PageData> cost;
+    if (const auto found = costs.find(result.readout); found != costs.end()) {
+      const double share = found->second.area_share();
+      cost = PageData().set("area_share", "{}", percent(share)).flag("kept", share <= kAreaGoal);
     }
+    arrays.emplace_back()
+        .set("readout", "{}", title(result))
+        .list("lives", std::move(lives))
+        .part("cost", std::move(cost));
   }
-  return text;
+  return arrays;
 }
 
 std::string csv_of(std::span<const ArrayResult> results) {
@@ -316,16 +282,26 @@ std::string csv_of(std::span<const ArrayResult> results) {
 MetricReport report_metrics(std::span<const ArrayResult> results,
                             const std::map<std::string, ProtectionCost>& costs,
                             const MetricStudyOptions& options, const std::string& command_line) {
-  MetricReport report;
-  report.conclusions = conclude(results, costs);
   const int columns = results.empty() ? 0 : results.front().columns;
   const int rows = results.empty() ? 0 : results.front().rows;
-  report.markdown = fmt::format(kPage, columns, rows, options.acquisitions, options.faults, command_line,
-                                options.seed, report.conclusions, kFullColumns, kFullRows,
-                                columns == 0 ? 0 : kFullColumns / columns, metric_table(results),
-                                means_table(results), part_table(results), cost_table(results, costs));
-  report.csv = csv_of(results);
-  return report;
+  PageData page;
+  page.set("columns", "{}", columns)
+      .set("rows", "{}", rows)
+      .set("acquisitions", "{}", options.acquisitions)
+      .set("faults", "{}", options.faults)
+      .set("command", "{}", command_line)
+      .set("seed", "{}", options.seed)
+      .set("detected_goal", "{:.0f}", kPercent * kDetectedGoal)
+      .set("area_goal", "{:.0f}", kPercent * kAreaGoal)
+      .list("arrays", arrays_data(results, costs))
+      .set("full_columns", "{}", kFullColumns)
+      .set("full_rows", "{}", kFullRows)
+      .set("column_ratio", "{}", columns == 0 ? 0 : kFullColumns / columns)
+      .set("metrics", metric_table(results))
+      .set("means", means_table(results))
+      .set("parts", part_table(results))
+      .set("costs", cost_table(results, costs));
+  return {std::move(page), csv_of(results)};
 }
 
 }  // namespace dtof

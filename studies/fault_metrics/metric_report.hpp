@@ -7,13 +7,13 @@
 
 #include "fault_metrics/metric_study.hpp"
 #include "fault_metrics/protection_cost.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
 struct MetricReport {
-  std::string conclusions;  ///< sentences as a Markdown list
-  std::string markdown;     ///< the whole page
-  std::string csv;          ///< a line per array, stratum and life of a fault
+  PageData page;    ///< of fault_metrics.mustache
+  std::string csv;  ///< a line per array, stratum and life of a fault
 };
 
 /// Goals of the protection.

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "dtof/metrics/confidence_interval.hpp"
@@ -21,46 +23,6 @@ namespace {
 constexpr double kPercent = 100.0;
 constexpr double kMillimetres = 1000.0;
 constexpr double kOthers = kFaultEngineColumns * kFaultRows - 1;  // pixels besides the faulty one, at most
-
-// Columns, rows, acquisitions, command, seed, conclusions, and the tables.
-constexpr std::string_view kReport = R"(# Faults
-
-What one fault does to a frame, in the Verilated RTL of every read-out: {} columns of {} pixels (poolPointer: six
-columns per engine) that see a part of the scene `room`, preset `thesis`, 14 klux, {} acquisitions per frame.
-Command: `{}`, seed {}.
-
-{}
-A frame with faults is compared with the same frame without faults. A frame has several faults, at most one per column. In poolPointer the columns
-of an engine depend on each other, so that a frame has at most one fault per engine; an SRAM that serves columns of two engines counts for both.
-A third of the columns (or engines) has no fault; "other columns" counts the pixels that changed there. A pixel is spoilt if its depth moved by
-more than 3 % of its distance. In brackets: 95 % intervals (shares of faults: Wilson's; means over faults: Student's).
-
-## One flipped bit
-
-A random bit of a random word flips in a random clock of the frame. Many flips change nothing, because the word is written
-before it is read again. Moves: for each flip that moves a depth, the largest move of a pixel. The engines' scratch memories are in use only
-while the engines work, which is a small part of a frame; "engines at work" are flips in this part only.
-
-{}
-## A stuck column
-
-Stuck timestamps: every slot of every acquisition of the column carries one random code. Stuck bit: one random bit of
-every word of an SRAM reads the same for the whole frame. Within reach: the column's pixels; for an engine's scratch
-memory the pixels of all its columns.
-
-{}
-## A hot or dead pixel
-
-A hot pixel fires one more time in every acquisition, always at the same random code or each time at another. Its TDC keeps the first two
-events of an acquisition. Others: the {} other pixels of its column.
-
-{}
-## The frame after
-
-Frames that are right in every pixel: frames of a third of the acquisitions that follow a frame with faults without a reset, and
-whole frames that follow a reset in a random clock of every state.
-
-{})";
 
 struct KindNames {
   FaultKind kind;
@@ -174,7 +136,7 @@ double beyond_pixels(const FaultEffect& effect) { return effect.beyond; }
 
 std::string title(Readout readout) { return std::string(readout_title(readout)); }
 
-std::string flip_table(std::span<const FaultCaseResult> results) {
+Table flip_table(std::span<const FaultCaseResult> results) {
   Table table({"read-out", "SRAM", "moment", "flips", "result changes, %", "depth moves, %", "beyond 3 %, %",
                "median, mm", "95 %, mm", "largest, mm", "most pixels moved", "other columns"},
               3);
@@ -190,10 +152,10 @@ std::string flip_table(std::span<const FaultCaseResult> results) {
                quantile(sum.moves_mm, 0.95), quantile(sum.moves_mm, 1.0), fmt::format("{}", sum.most_moved),
                fmt::format("{}", result.changed_elsewhere)});
   }
-  return table.markdown();
+  return table;
 }
 
-std::string column_table(std::span<const FaultCaseResult> results) {
+Table column_table(std::span<const FaultCaseResult> results) {
   Table table({"read-out", "fault", "faults", "pixels within reach", "of them moved, %", "spoilt, %",
                "other columns"},
               2);
@@ -211,10 +173,10 @@ std::string column_table(std::span<const FaultCaseResult> results) {
                mean(result.effects, moved_percent, kPercent), mean(result.effects, beyond_percent, kPercent),
                fmt::format("{}", result.changed_elsewhere)});
   }
-  return table.markdown();
+  return table;
 }
 
-std::string pixel_table(std::span<const FaultCaseResult> results) {
+Table pixel_table(std::span<const FaultCaseResult> results) {
   Table table({"read-out", "pixel", "pixels tried", "others changed, mean", "most", "others spoilt, mean",
                "most", "spoils any, %", "other columns"},
               2);
@@ -229,7 +191,7 @@ std::string pixel_table(std::span<const FaultCaseResult> results) {
                fmt::format("{}", sum.most_beyond), percent(sum.moving_beyond, sum.faults),
                fmt::format("{}", result.changed_elsewhere)});
   }
-  return table.markdown();
+  return table;
 }
 
 std::vector<Readout> readouts_of(std::span<const FaultCaseResult> results) {
@@ -254,7 +216,7 @@ FaultCaseResult total(std::span<const FaultCaseResult> results, const Chosen& ch
   return sum;
 }
 
-std::string next_frame_table(std::span<const FaultCaseResult> results) {
+Table next_frame_table(std::span<const FaultCaseResult> results) {
   Table table({"read-out", "states reset in", "after a reset", "after flipped bits", "after stuck bits",
                "after stuck timestamps", "after hot pixels", "after dead pixels"});
   for (const Readout readout : readouts_of(results)) {
@@ -275,7 +237,7 @@ std::string next_frame_table(std::span<const FaultCaseResult> results) {
                cell([](FaultKind kind) { return kind == FaultKind::kStuckTimestamps; }), cell(is_hot_pixel),
                cell([](FaultKind kind) { return kind == FaultKind::kDeadPixel; })});
   }
-  return table.markdown();
+  return table;
 }
 
 std::string csv_of(std::span<const FaultCaseResult> results) {
@@ -336,70 +298,76 @@ std::string csv_of(std::span<const FaultCaseResult> results) {
   return table.csv();
 }
 
-std::string all_or(int bad, int of, std::string_view good, std::string_view otherwise) {
-  return bad == 0 ? fmt::format("{} ({})", good, of) : fmt::format("{} of {} {}", bad, of, otherwise);
+/// {"number": count}, or nothing for 0.
+std::optional<PageData> unless_none(std::uint64_t count) {
+  return count == 0 ? std::nullopt : std::optional(PageData().set("number", "{}", count));
 }
 
-std::string conclude(std::span<const FaultCaseResult> results) {
-  std::vector<std::string> sentences;
-  const auto everything = [](const FaultCase&) { return true; };
-  const FaultCaseResult all = total(results, everything);
-  sentences.push_back(
-      fmt::format("{}: {}.", "Frames with a fault",
-                  all_or(all.broken_frames, all.frames, "every one ended and kept the interface's rules",
-                         "did not end, or broke a rule of the interface")));
-  sentences.push_back(fmt::format(
-      "Frames after a fault: {}.",
-      all_or(all.wrong_next_frames, all.next_frames, "every one was right in every pixel", "were wrong")));
-  sentences.push_back(
-      all.changed_elsewhere == 0
-          ? std::string("No fault changed a pixel of a column that it does not touch.")
-          : fmt::format("{} pixels changed in columns that no fault touches.", all.changed_elsewhere));
-  sentences.push_back(
-      all.model_mismatches == 0
-          ? std::string("With faulty timestamps the array read what its model reads from them.")
-          : fmt::format("In {} frames with faulty timestamps the array differed from its model.",
-                        all.model_mismatches));
+/// What flipped bits and hot pixels did to a read-out; nothing unless both were tried.
+std::optional<PageData> readout_data(std::span<const FaultCaseResult> results, Readout readout) {
+  const auto flips = total(results, [&](const FaultCase& fault) {
+    return fault.readout == readout && fault.kind == FaultKind::kFlippedBit;
+  });
+  const Summary flip = summarise(flips.effects);
+  const auto hot = total(
+      results, [&](const FaultCase& fault) { return fault.readout == readout && is_hot_pixel(fault.kind); });
+  const Summary spoilt = summarise(hot.effects);
+  if (flip.faults == 0 || spoilt.faults == 0) {
+    return std::nullopt;
+  }
+  std::optional<PageData> hot_changes;
+  if (spoilt.changing > 0) {
+    hot_changes = PageData()
+                      .set("changed", "{}", mean(hot.effects, changed_pixels, kOthers))
+                      .set("spoilt", "{}", mean(hot.effects, beyond_pixels, kOthers))
+                      .set("most_spoilt", "{}", spoilt.most_beyond);
+  }
+  PageData data;
+  data.set("readout", "{}", readout_title(readout))
+      .set("moving_flips", "{}", flip.moving)
+      .set("flips", "{}", flip.faults)
+      .set("flips_beyond", "{}", flip.moving_beyond)
+      .set("most_moved", "{}", flip.most_moved)
+      .part("hot_changes", std::move(hot_changes));
+  return data;
+}
+
+PageData page_of(std::span<const FaultCaseResult> results, const FaultStudyOptions& options,
+                 const std::string& command_line) {
+  const FaultCaseResult all = total(results, [](const FaultCase&) { return true; });
+  std::vector<PageData> readouts;
   for (const Readout readout : readouts_of(results)) {
-    const auto flips = total(results, [&](const FaultCase& fault) {
-      return fault.readout == readout && fault.kind == FaultKind::kFlippedBit;
-    });
-    const Summary flip = summarise(flips.effects);
-    const auto hot = total(results, [&](const FaultCase& fault) {
-      return fault.readout == readout && is_hot_pixel(fault.kind);
-    });
-    const Summary spoilt = summarise(hot.effects);
-    if (flip.faults == 0 || spoilt.faults == 0) {
-      continue;
+    if (auto data = readout_data(results, readout)) {
+      readouts.push_back(*std::move(data));
     }
-    std::string sentence = fmt::format(
-        "{}: {} of {} flipped bits moved a depth, {} beyond 3 %; the most pixels that one moved: {}. ",
-        readout_title(readout), flip.moving, flip.faults, flip.moving_beyond, flip.most_moved);
-    sentence += spoilt.changing == 0
-                    ? std::string("No hot pixel changed another one.")
-                    : fmt::format("One hot pixel changed {} others on average and spoilt {}, at most {}.",
-                                  mean(hot.effects, changed_pixels, kOthers),
-                                  mean(hot.effects, beyond_pixels, kOthers), spoilt.most_beyond);
-    sentences.push_back(sentence);
   }
-  std::string text;
-  for (const std::string& sentence : sentences) {
-    text += fmt::format("- {}\n", sentence);
-  }
-  return text;
+  const auto count = [](auto number) { return unless_none(static_cast<std::uint64_t>(number)); };
+  PageData page;
+  page.set("columns", "{}", kFaultColumns)
+      .set("rows", "{}", kFaultRows)
+      .set("acquisitions", "{}", options.acquisitions)
+      .set("command", "{}", command_line)
+      .set("seed", "{}", options.seed)
+      .set("frames", "{}", all.frames)
+      .part("broken_frames", count(all.broken_frames))
+      .set("next_frames", "{}", all.next_frames)
+      .part("wrong_next_frames", count(all.wrong_next_frames))
+      .part("changed_elsewhere", count(all.changed_elsewhere))
+      .part("model_mismatches", count(all.model_mismatches))
+      .list("readouts", std::move(readouts))
+      .set("flipped_bits", flip_table(results))
+      .set("stuck_columns", column_table(results))
+      .set("other_rows", "{}", kFaultRows - 1)
+      .set("faulty_pixels", pixel_table(results))
+      .set("next_frame", next_frame_table(results));
+  return page;
 }
 
 }  // namespace
 
 FaultReport report_faults(std::span<const FaultCaseResult> results, const FaultStudyOptions& options,
                           const std::string& command_line) {
-  FaultReport report;
-  report.conclusions = conclude(results);
-  report.csv = csv_of(results);
-  report.markdown = fmt::format(kReport, kFaultColumns, kFaultRows, options.acquisitions, command_line,
-                                options.seed, report.conclusions, flip_table(results), column_table(results),
-                                kFaultRows - 1, pixel_table(results), next_frame_table(results));
-  return report;
+  return {page_of(results, options, command_line), csv_of(results)};
 }
 
 bool faults_stay_where_they_are(std::span<const FaultCaseResult> results) {

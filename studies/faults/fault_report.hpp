@@ -5,13 +5,13 @@
 #include <string>
 
 #include "faults/fault_study.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
 struct FaultReport {
-  std::string conclusions;  ///< sentences as a Markdown list
-  std::string markdown;     ///< the whole report
-  std::string csv;          ///< a line per case
+  PageData page;    ///< of faults.mustache
+  std::string csv;  ///< a line per case
 };
 
 FaultReport report_faults(std::span<const FaultCaseResult> results, const FaultStudyOptions& options,

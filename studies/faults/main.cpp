@@ -38,9 +38,9 @@ void run(Options options, const std::string& command_line) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const dtof::FaultReport report = dtof::report_faults(results, options.study, command_line);
   const std::filesystem::path folder(options.out);
-  dtof::write_file(folder / "faults.md", report.markdown);
+  dtof::write_page(folder, "faults", "faults", report.page);
   dtof::write_file(folder / "faults.csv", report.csv);
-  fmt::print("{}Seed {}, {:.0f} s. Written to {}\n", report.conclusions, options.study.seed, seconds,
+  fmt::print("Seed {}, {:.0f} s. Written to {}\n", options.study.seed, seconds,
              (folder / "faults.md").string());
   if (!dtof::faults_stay_where_they_are(results)) {
     throw dtof::RtlError("a fault went farther than it should: see the report");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command_line/options.hpp"
@@ -14,6 +15,7 @@
 #include "dtof/io/output_folder.hpp"
 #include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
+#include "page/page.hpp"
 #include "rivals/paper_claims.hpp"
 
 namespace dtof {
@@ -84,42 +86,39 @@ void write_picture(const std::filesystem::path& path, const PaperScene& scene) {
               .logarithmic_x = true});
 }
 
+/// Error over the bound by the numbers that leave a pixel is a curve only with three codes or more.
+bool has_picture(const PaperScene& scene) { return scene.codes.size() > 2; }
+
+PageData claims_page(const ClaimsOptions& options, const PaperClaims& found) {
+  std::vector<PageData> scenes;
+  for (const PaperScene& scene : found.scenes) {
+    scenes.emplace_back()
+        .set("photons", "{}", scene.name)
+        .set("description", "{}", scene.description)
+        .set("bound", "{:.3f}", scene.bound)
+        .flag("has_picture", has_picture(scene))
+        .set("precision", scene_table(scene));
+  }
+  PageData data;
+  data.set("pixels", "{}", options.settings.pixels)
+      .set("seed", "{}", options.settings.seed)
+      .set("claims", claims_table(found))
+      .list("scenes", std::move(scenes))
+      .set("command", "{}", options.command_line);
+  return data;
+}
+
 void run_claims_command(const ClaimsOptions& options) {
   const PaperClaims found = judge_paper_claims(options.settings);
-  std::string report = fmt::format(
-      "# What the rivals' papers claim\n\n"
-      "This page compares each rival's model ([the list](rivals.md), `models/dtof/rival`) with the "
-      "claims of its paper. The photons are as in these papers: independent detections of a Gaussian pulse "
-      "and of a flat background, without pile-up, at distances spread over the whole range; {} pixels, seed "
-      "{}. Claims about strong light have photons with pile-up, which their rows state. The claim "
-      "about codes with the laser has photons of its own light, too. The claims are those "
-      "of the abstracts, in the project's words. The papers' own scenes and figures "
-      "are not repeated, because their texts and data are not part of this project. Each row states the "
-      "limit that stands for \"negligible\", \"similar\" or \"modest\".\n\n"
-      "* The reference is the full histogram with a matched filter. A second reference is the Cramer-Rao "
-      "bound for the same photons, in closed form.\n"
-      "* \"Highest bin\" takes the position of a histogram's largest bin, without knowledge of the pulse, "
-      "as the equi-depth papers do. The row beside it shows the result of a matched filter on the same "
-      "counters, because the project's 32-bin histogram uses a matched filter.\n"
-      "* Holds: the claim is true under every tested kind of photons; in part: under some. Errors are root "
-      "mean squares in codes with 95 % intervals. Lost: pixels whose error is larger than three standard "
-      "deviations of the pulse.\n\n{}\n",
-      options.settings.pixels, options.settings.seed, claims_table(found).markdown());
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
   for (const PaperScene& scene : found.scenes) {
-    report += fmt::format("## {} photons\n\n{}. Cramer-Rao bound: {:.3f} codes.\n\n", scene.name,
-                          scene.description, scene.bound);
-    if (scene.codes.size() > 2) {
-      const std::string picture = fmt::format("{}.svg", scene.name);
-      write_picture(folder / picture, scene);
-      report += fmt::format("![Error over the bound, {} photons]({})\n\n", scene.name, picture);
+    if (has_picture(scene)) {
+      write_picture(folder / fmt::format("{}.svg", scene.name), scene);
     }
-    report += scene_table(scene).markdown() + "\n";
   }
-  report += fmt::format("All figures: [claims.csv](claims.csv).\n\nCommand: `{}`\n", options.command_line);
   write_file(folder / "claims.csv", csv_table(found).csv());
-  write_file(folder / "claims.md", report);
+  write_page(folder, "claims", "claims", claims_page(options, found));
   fmt::print("{}\nSeed {}. Written to {}\n", claims_table(found).markdown(), options.settings.seed,
              (folder / "claims.md").string());
 }

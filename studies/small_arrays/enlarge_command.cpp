@@ -123,45 +123,28 @@ std::string pictured_scene(const EnlargeOptions& options, const std::vector<Enla
   return name;
 }
 
-/// The page's sections before the picture.
-std::string enlarge_text(const std::string& answer, const EnlargeOptions& options, const SensorModel& sensor,
-                         const std::vector<EnlargeScene>& scenes) {
+PageData enlarge_page(const EnlargeOptions& options, const SensorModel& sensor,
+                      const std::vector<EnlargeScene>& scenes, std::span<const EnlargeLight> lights,
+                      const std::string& picture_title, const std::string& picture) {
   std::vector<std::string> names;
   for (const EnlargeScene& scene : scenes) {
     names.push_back(scene.name);
   }
-  return fmt::format(
-      "# Small arrays, enlarged\n\n"
-      "The thesis's last question: fewer pixels that share the laser have more signal each; can their maps "
-      "be enlarged to those of the large array?\n\n"
-      "## Answer\n\n"
-      "{}\n"
-      "## What is compared\n\n"
-      "* Large array: {} x {} pixels, poolPointer, sensor {}. Small arrays: the same laser power, so that "
-      "each of n times fewer pixels has n times the signal. They cover the same field: each looks at the "
-      "spot of one pixel of the large array, in the middle of its share, and the laser lights these spots "
-      "alone. Hence a pixel's background is that of the large array. A lens that gave each small pixel its "
-      "whole share of the field would multiply background as well as signal.\n"
-      "* Photons: the fast model (bright pixels are slow with the exact one). Each array and read-out has a "
-      "look-up table of its own for its light (flat targets, seed {}). poolPointer keeps its parameters, "
-      "which were chosen for the large array. \"{}\": the true distances of the spots, so that only the "
-      "enlarger errs.\n"
-      "* Enlargers: nearest spot; bilinear; joint bilateral (Kopf et al., SIGGRAPH 2007); a network that "
-      "weighs the 3 x 3 spots around a pixel (studies/small_arrays/models). The last two are guided by an "
-      "intensity "
-      "image of the large array's pixels: a Poisson number of each pixel's background events over the "
-      "frame. Both were trained by `make train-enlarger` on random shapes that no report reads. The large "
-      "array's map is taken as it is, without the image.\n"
-      "* Maps: {}. Photographed ones are Middlebury's disparity maps with the nearest point at {:g} m; the "
-      "reflectivity is the photograph's luminance, at least {:g}. Pixels without a disparity are filled "
-      "with the farther neighbour of their row and not judged.\n"
-      "* Seeds {} to {} (photons, intensity image). +- is half of the 95 % interval from the spread of the "
-      "seeds; the choice of maps is not in it. Rmse: root mean square of the relative error. Edges: pixels "
-      "with a neighbour whose distance differs by more than 10 %. Each comparison takes the small array that "
-      "is best in the compared figure, which favours small arrays.\n\n",
-      answer, sensor.columns, sensor.rows, options.sensor, options.seed, kNoError, fmt::join(names, ", "),
-      options.nearest_m, kDarkestPhotographed, options.seed,
-      options.seed + static_cast<std::uint64_t>(options.seeds) - 1);
+  PageData data;
+  add_enlarge_results(lights, data);
+  data.set("columns", "{}", sensor.columns)
+      .set("rows", "{}", sensor.rows)
+      .set("sensor", "{}", options.sensor)
+      .set("first_seed", "{}", options.seed)
+      .set("last_seed", "{}", options.seed + static_cast<std::uint64_t>(options.seeds) - 1)
+      .set("no_error", "{}", kNoError)
+      .set("maps", "{}", fmt::join(names, ", "))
+      .set("nearest_m", "{:g}", options.nearest_m)
+      .set("darkest", "{:g}", kDarkestPhotographed)
+      .set("picture_title", "{}", picture_title)
+      .set("picture", "{}", picture)
+      .set("command", "{}", options.command_line);
+  return data;
 }
 
 void run_enlarge_command(EnlargeOptions options) {
@@ -178,17 +161,14 @@ void run_enlarge_command(EnlargeOptions options) {
     settings.klux = klux;
     lights.push_back({klux, run_enlarge_study(settings, scenes)});
   }
-  const std::string answer = enlarge_answer(lights);
   const std::string picture = fmt::format("enlarge_{:g}klux.png", lights.back().klux);
   const std::string title =
       fmt::format("{}, {:g} klux, sensor {}, poolPointer: large array, and a small one enlarged",
                   settings.pictured_scene, lights.back().klux, options.sensor);
   write_picture(folder / picture, lights.back().study.maps, sensor, title, options.command_line);
   write_file(folder / "enlarge.csv", enlarge_csv(lights));
-  write_file(folder / "enlarge.md",
-             fmt::format("{}![{}]({})\n\n{}Command: `{}`\n", enlarge_text(answer, options, sensor, scenes),
-                         title, picture, enlarge_tables(lights), options.command_line));
-  fmt::print("{}\nThe report is {}\n", answer, (folder / "enlarge.md").string());
+  write_page(folder, "enlarge", "enlarge", enlarge_page(options, sensor, scenes, lights, title, picture));
+  fmt::print("The report is {}\n", (folder / "enlarge.md").string());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <utility>
 
 #include "dtof/core/error.hpp"
 #include "dtof/report/table.hpp"
@@ -142,6 +143,135 @@ LearnedCount count_learned(const std::vector<EnlargeEntry>& entries, const Enlar
   return count;
 }
 
+/// How the learned enlarger fares with one small array.
+PageData learned_data(const std::vector<EnlargeEntry>& entries, const ArraySize& array) {
+  const EnlargeFigure& judged = kFigures[kJudged];
+  const Wanted measured = measured_with(array);
+  const EnlargeEntry& learned = best_of(entries, judged, [&](const EnlargeEntry& entry) {
+    return measured(entry) && entry.enlarger == kLearned;
+  });
+  const EnlargeEntry& other = best_of(entries, judged, [&](const EnlargeEntry& entry) {
+    return measured(entry) && entry.enlarger != kLearned;
+  });
+  const EnlargeEntry& perfect = best_of(entries, judged, [&](const EnlargeEntry& entry) {
+    return entry.array == array && entry.readout == kNoError;
+  });
+  PageData data;
+  data.set("array", "{}", array_size_title(array))
+      .set("learned_share", "{}", per_cent(figure_of(learned, judged)))
+      .set("learned_readout", "{}", learned.readout)
+      .set("against_large", "{}", verdict(gap_of(learned, entries.front(), judged)))
+      .set("against_others", "{}", verdict(gap_of(learned, other, judged)))
+      .set("other_share", "{}", per_cent(figure_of(other, judged)))
+      .set("other_readout", "{}", other.readout)
+      .set("other_enlarger", "{}", other.enlarger)
+      .set("perfect_share", "{:.2f}", 100.0 * figure_of(perfect, judged).value)
+      .set("perfect_enlarger", "{}", perfect.enlarger);
+  return data;
+}
+
+PageData answer_data(const EnlargeLight& light) {
+  const std::vector<EnlargeEntry> entries = entries_of(light.study);
+  const LearnedCount count = count_learned(entries, kFigures[kJudged]);
+  std::vector<PageData> arrays;
+  for (const ArraySize& array : small_arrays(entries)) {
+    arrays.push_back(learned_data(entries, array));
+  }
+  PageData data;
+  data.set("klux", "{:g}", light.klux)
+      .set("large_share", "{}", per_cent(figure_of(entries.front(), kFigures[kJudged])))
+      .set("learned_best", "{}", count.best)
+      .set("learned_cases", "{}", count.all)
+      .list("arrays", std::move(arrays));
+  return data;
+}
+
+/// "14 klux: none; 50 klux: 100 x 80": small arrays whose learned maps are better than the large array's.
+std::string winners(std::span<const EnlargeLight> lights) {
+  std::vector<std::string> texts;
+  for (const EnlargeLight& light : lights) {
+    const std::vector<EnlargeEntry> entries = entries_of(light.study);
+    std::vector<std::string> better;
+    for (const ArraySize& array : small_arrays(entries)) {
+      const Wanted measured = measured_with(array);
+      const EnlargeEntry& learned = best_of(entries, kFigures[kJudged], [&](const EnlargeEntry& entry) {
+        return measured(entry) && entry.enlarger == kLearned;
+      });
+      if (gap_of(learned, entries.front(), kFigures[kJudged]).interval.high < 0.0) {
+        better.push_back(array_size_title(array));
+      }
+    }
+    texts.push_back(fmt::format("{:g} klux: {}", light.klux,
+                                better.empty() ? "none" : fmt::format("{}", fmt::join(better, ", "))));
+  }
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+/// For each light, figure of all pixels and small array: the best map of the array beside the large array's.
+Table best_of_each_array(std::span<const EnlargeLight> lights) {
+  Table table({"klux", "figure, %", "large array", "best of the small array", "small array", "difference",
+               "verdict", "better on", "worse on"},
+              2);
+  for (const EnlargeLight& light : lights) {
+    const std::vector<EnlargeEntry> entries = entries_of(light.study);
+    const EnlargeEntry& large = entries.front();
+    const std::vector<ArraySize> arrays = small_arrays(entries);
+    for (std::size_t f = 0; f < kWholeFigures; ++f) {
+      for (const ArraySize& array : arrays) {
+        const EnlargeEntry& small = best_of(entries, kFigures[f], measured_with(array));
+        const Estimate gap = gap_of(small, large, kFigures[f]);
+        const MapCount maps = count_maps(small, large, kFigures[f]);
+        const auto of = [&](int count) { return fmt::format("{} of {} maps", count, large.rows.size()); };
+        table.add({fmt::format("{:g}", light.klux), kFigures[f].title,
+                   per_cent(figure_of(large, kFigures[f])), name_of(small),
+                   per_cent(figure_of(small, kFigures[f])), per_cent(gap), verdict(gap), of(maps.better),
+                   of(maps.worse)});
+      }
+    }
+  }
+  return table;
+}
+
+Table all_maps(const std::vector<EnlargeEntry>& entries) {
+  std::vector<std::string> header = {"array", "read-out", "enlarger"};
+  for (const EnlargeFigure& figure : kFigures) {
+    header.emplace_back(figure.title);
+  }
+  Table table(std::move(header), 3);
+  for (const EnlargeEntry& entry : entries) {
+    std::vector<std::string> row = {array_size_title(entry.array), entry.readout, entry.enlarger};
+    for (const EnlargeFigure& figure : kFigures) {
+      row.push_back(per_cent(figure_of(entry, figure)));
+    }
+    table.add(std::move(row));
+  }
+  return table;
+}
+
+/// The large array, and the small ones with its read-out.
+Table map_by_map(const std::vector<EnlargeEntry>& entries) {
+  const EnlargeEntry& large = entries.front();
+  std::vector<std::string> header = {"array", "read-out", "enlarger"};
+  for (const EnlargeRow* const row : large.rows) {
+    header.push_back(row->scene);
+  }
+  Table table(std::move(header), 3);
+  for (const EnlargeEntry& entry : entries) {
+    if (&entry != &large && entry.readout != large.readout) {
+      continue;
+    }
+    std::vector<std::string> cells = {array_size_title(entry.array), entry.readout, entry.enlarger};
+    for (const EnlargeRow* const& row : entry.rows) {
+      const auto value = [&](std::size_t f) {
+        return 100.0 * estimate_mean(pooled_figure(std::span(&row, 1), kFigures[f])).value;
+      };
+      cells.push_back(fmt::format("{:.2f} / {:.2f}", value(1), value(2)));
+    }
+    table.add(std::move(cells));
+  }
+  return table;
+}
+
 }  // namespace
 
 std::span<const EnlargeFigure> enlarge_figures() { return kFigures; }
@@ -177,110 +307,21 @@ std::vector<EnlargeEntry> entries_of(const EnlargeStudy& study) {
   return entries;
 }
 
-std::string enlarge_answer(std::span<const EnlargeLight> lights) {
-  Table table({"klux", "figure, %", "large array", "best of the small array", "small array", "difference",
-               "verdict", "better on", "worse on"},
-              2);
-  const EnlargeFigure& judged = kFigures[kJudged];
-  std::string winners;
-  std::string sentences;
+void add_enlarge_results(std::span<const EnlargeLight> lights, PageData& page) {
+  std::vector<PageData> answers;
+  std::vector<PageData> tables;
   for (const EnlargeLight& light : lights) {
     const std::vector<EnlargeEntry> entries = entries_of(light.study);
-    const EnlargeEntry& large = entries.front();
-    const std::vector<ArraySize> arrays = small_arrays(entries);
-    for (std::size_t f = 0; f < kWholeFigures; ++f) {
-      for (const ArraySize& array : arrays) {
-        const EnlargeEntry& small = best_of(entries, kFigures[f], measured_with(array));
-        const Estimate gap = gap_of(small, large, kFigures[f]);
-        const MapCount maps = count_maps(small, large, kFigures[f]);
-        const auto of = [&](int count) { return fmt::format("{} of {} maps", count, large.rows.size()); };
-        table.add({fmt::format("{:g}", light.klux), kFigures[f].title,
-                   per_cent(figure_of(large, kFigures[f])), name_of(small),
-                   per_cent(figure_of(small, kFigures[f])), per_cent(gap), verdict(gap), of(maps.better),
-                   of(maps.worse)});
-      }
-    }
-    const LearnedCount count = count_learned(entries, judged);
-    sentences += fmt::format(
-        "* {:g} klux: with the large array {} % of all pixels are more than 3 % off. Over small arrays and "
-        "read-outs, the learned enlarger is the best of the four in {} of {} cases.\n",
-        light.klux, per_cent(figure_of(large, judged)), count.best, count.all);
-    std::vector<std::string> better;
-    for (const ArraySize& array : arrays) {
-      const Wanted measured = measured_with(array);
-      const EnlargeEntry& learned = best_of(entries, judged, [&](const EnlargeEntry& entry) {
-        return measured(entry) && entry.enlarger == kLearned;
-      });
-      const EnlargeEntry& other = best_of(entries, judged, [&](const EnlargeEntry& entry) {
-        return measured(entry) && entry.enlarger != kLearned;
-      });
-      const EnlargeEntry& perfect = best_of(entries, judged, [&](const EnlargeEntry& entry) {
-        return entry.array == array && entry.readout == kNoError;
-      });
-      const Estimate gap = gap_of(learned, large, judged);
-      if (gap.interval.high < 0.0) {
-        better.push_back(array_size_title(array));
-      }
-      sentences += fmt::format(
-          "    * {}, learned: {} % at best ({}), **{}** than the large array and {} than the best of the "
-          "other "
-          "enlargers ({} %, {}, {}). Spots measured without an error would leave {:.2f} % ({}).\n",
-          array_size_title(array), per_cent(figure_of(learned, judged)), learned.readout, verdict(gap),
-          verdict(gap_of(learned, other, judged)), per_cent(figure_of(other, judged)), other.readout,
-          other.enlarger, 100.0 * figure_of(perfect, judged).value, perfect.enlarger);
-    }
-    winners += fmt::format("{}{:g} klux: {}", winners.empty() ? "" : "; ", light.klux,
-                           better.empty() ? "none" : fmt::format("{}", fmt::join(better, ", ")));
+    answers.push_back(answer_data(light));
+    tables.emplace_back()
+        .set("klux", "{:g}", light.klux)
+        .set("all_maps", all_maps(entries))
+        .set("map_by_map", map_by_map(entries));
   }
-  return fmt::format(
-      "Small arrays whose map, enlarged by learning, has fewer pixels above 3 % than the map of the large "
-      "array: **{}**.\n\n{}\n{}",
-      winners, sentences, table.markdown());
-}
-
-std::string enlarge_tables(std::span<const EnlargeLight> lights) {
-  std::string text;
-  for (const EnlargeLight& light : lights) {
-    std::vector<std::string> header = {"array", "read-out", "enlarger"};
-    for (const EnlargeFigure& figure : kFigures) {
-      header.emplace_back(figure.title);
-    }
-    Table table(std::move(header), 3);
-    const std::vector<EnlargeEntry> entries = entries_of(light.study);
-    for (const EnlargeEntry& entry : entries) {
-      std::vector<std::string> row = {array_size_title(entry.array), entry.readout, entry.enlarger};
-      for (const EnlargeFigure& figure : kFigures) {
-        row.push_back(per_cent(figure_of(entry, figure)));
-      }
-      table.add(std::move(row));
-    }
-    text += fmt::format("## {:g} klux\n\n### All maps together, %\n\n{}\n", light.klux, table.markdown());
-
-    const EnlargeEntry& large = entries.front();
-    std::vector<const EnlargeEntry*> shown;
-    for (const EnlargeEntry& entry : entries) {
-      if (&entry == &large || entry.readout == large.readout) {
-        shown.push_back(&entry);
-      }
-    }
-    std::vector<std::string> maps_header = {"array", "read-out", "enlarger"};
-    for (const EnlargeRow* const row : large.rows) {
-      maps_header.push_back(row->scene);
-    }
-    Table maps(std::move(maps_header), 3);
-    for (const EnlargeEntry* const entry : shown) {
-      std::vector<std::string> cells = {array_size_title(entry->array), entry->readout, entry->enlarger};
-      for (const EnlargeRow* const& row : entry->rows) {
-        const auto value = [&](std::size_t f) {
-          return 100.0 * estimate_mean(pooled_figure(std::span(&row, 1), kFigures[f])).value;
-        };
-        cells.push_back(fmt::format("{:.2f} / {:.2f}", value(1), value(2)));
-      }
-      maps.add(std::move(cells));
-    }
-    text += fmt::format("### Map by map: pixels above 3 % / 10 %, %\n\n{}\n", maps.markdown());
-  }
-  return text;
+  page.set("winners", "{}", winners(lights))
+      .list("answers", std::move(answers))
+      .set("best_of_each_array", best_of_each_array(lights))
+      .list("lights", std::move(tables));
 }
 
 std::string enlarge_csv(std::span<const EnlargeLight> lights) {

@@ -90,10 +90,21 @@ TEST(EnlargeReport, EntriesHaveARowOfEachScene) {
   }
 }
 
+/// The page with these results; the rest is made up.
+std::string page_with(const std::vector<EnlargeLight>& lights) {
+  PageData data;
+  add_enlarge_results(lights, data);
+  for (const char* const name : {"columns", "rows", "sensor", "first_seed", "last_seed", "no_error", "maps",
+                                 "nearest_m", "darkest", "picture_title", "picture", "command"}) {
+    data.set(name, "{}", name);
+  }
+  return page_text("enlarge", data);
+}
+
 TEST(EnlargeReport, TheAnswerFollowsFromTheFigures) {
   std::vector<EnlargeLight> lights;
   lights.push_back({50.0, made_up()});
-  const std::string answer = enlarge_answer(lights);
+  const std::string answer = page_with(lights);
   EXPECT_THAT(answer,
               HasSubstr("has fewer pixels above 3 % than the map of the large array: **50 klux: 4 x 4**"));
   EXPECT_THAT(answer, HasSubstr("is the best of the four in 3 of 4 cases"));
@@ -116,7 +127,7 @@ TEST(EnlargeReport, WithoutABetterArrayTheAnswerSaysNone) {
   std::vector<EnlargeLight> lights;
   lights.push_back({14.0, study});
   lights.push_back({50.0, made_up()});
-  EXPECT_THAT(enlarge_answer(lights), HasSubstr("**14 klux: none; 50 klux: 4 x 4**"));
+  EXPECT_THAT(page_with(lights), HasSubstr("**14 klux: none; 50 klux: 4 x 4**"));
 }
 
 TEST(EnlargeReport, TablesAndCsvHaveEveryRow) {
@@ -126,7 +137,7 @@ TEST(EnlargeReport, TablesAndCsvHaveEveryRow) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * (1 + 7 * 4));
   EXPECT_THAT(csv, HasSubstr("klux,scene,array,readout,enlarger,pixels,rmse,rmse_low,rmse_high"));
   EXPECT_THAT(csv, HasSubstr("50,hill,8 x 8,poolPointer,-,1000,0.300000,"));
-  const std::string tables = enlarge_tables(lights);
+  const std::string tables = page_with(lights);
   EXPECT_THAT(tables, HasSubstr("## 50 klux"));
   const std::string by_map = tables.substr(tables.find("### Map by map"));
   EXPECT_THAT(by_map, HasSubstr("6.00 / 3.00"));      // poolPointer, as the large array

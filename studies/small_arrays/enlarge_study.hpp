@@ -9,6 +9,7 @@
 #include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/photon/target_map.hpp"
+#include "page/page.hpp"
 #include "scenes/scene_study.hpp"
 #include "small_arrays/models/learned_enlarger.hpp"
 
@@ -110,9 +111,8 @@ struct EnlargeLight {
   double klux = 0.0;
   EnlargeStudy study;
 };
-/// Markdown: conclusions, computed from the figures, and tables.
-std::string enlarge_answer(std::span<const EnlargeLight> lights);
-std::string enlarge_tables(std::span<const EnlargeLight> lights);
+/// Adds to the data of enlarge.mustache what the page says about the results.
+void add_enlarge_results(std::span<const EnlargeLight> lights, PageData& page);
 std::string enlarge_csv(std::span<const EnlargeLight> lights);
 
 }  // namespace dtof

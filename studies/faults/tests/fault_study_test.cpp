@@ -22,7 +22,8 @@ FaultStudyOptions small_study(std::vector<Readout> readouts) {
 TEST(FaultStudy, FaultsStayWhereTheyAre) {
   const FaultStudyOptions options = small_study({kRtlReadouts.begin(), kRtlReadouts.end()});
   const std::vector<FaultCaseResult> results = study_faults(options);
-  EXPECT_TRUE(faults_stay_where_they_are(results)) << report_faults(results, options, "test").markdown;
+  EXPECT_TRUE(faults_stay_where_they_are(results))
+      << page_text("faults", report_faults(results, options, "test").page);
   for (const FaultCaseResult& result : results) {
     EXPECT_GT(result.frames, 0);
     EXPECT_EQ(result.next_frames, result.frames);
