@@ -16,6 +16,7 @@ from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCES = (".sv", ".svh", ".py", ".cpp", ".hpp", ".c", ".h", ".js", ".sh", ".mk", ".tcl", ".toml", ".cmake", ".in")
+PAGES = (".md", ".mustache")
 NO_NOUN = re.compile(r"(?:^|\s)(?://+|#+|\"\"\"|\*)\s*Of\s+[a-zA-Z]")
 NO_NOUN_ON_A_PAGE = re.compile(r"(?:^|[.:|]\s+)Of [a-z]")
 NOT_THERE = re.compile(r"\b(?:field|file|limit|name|one|row|those) that there (?:is|are)\b")
@@ -29,7 +30,7 @@ def problem(name: str, line: str) -> str:
     """Fault of this line of a file; empty if there is none."""
     if NOT_THERE.search(line):
         return "'that there is': say what exists or does not"
-    if name.endswith(".md"):
+    if name.endswith(PAGES):
         if NO_NOUN_ON_A_PAGE.search(line):
             return "a sentence begins with 'Of': say what it is about"
         found = PERSON_ON_A_PAGE.search(line)
@@ -45,7 +46,7 @@ def problem(name: str, line: str) -> str:
 
 def files(root: Path) -> list[str]:
     return [name for name in sorted(SourceTree(root).files) if (
-        name.endswith(SOURCES) or (name.endswith(".md") and not name.startswith(("reports/", "docs/notes/", "CHANGELOG"))))]
+        name.endswith(SOURCES) or (name.endswith(PAGES) and not name.startswith(("reports/", "docs/notes/", "CHANGELOG"))))]
 
 
 def problems(root: Path) -> list[str]:

@@ -14,7 +14,7 @@ class Language(unittest.TestCase):
         o = "Of"
         for name, line in (("a.hpp", f"/// {o} all rows."), ("a.py", f'    """{o} a sweep\'s jobs."""'), ("a.tcl", f"# {o} each pin"),
                            ("hdl/a.sv", f"  x = 1;  // {o} a pixel"), ("docs/a.md", f"It is so. {o} the others one is."),
-                           ("docs/a.md", f"{o} a column one row counts."), ("docs/a.md", f"| a | {o} the array |")):
+                           ("docs/a.md", f"{o} a column one row counts."), ("docs/a.md", f"| a | {o} the array |"), ("studies/a/a.mustache", f"{{{{a}}}} rows. {o} the others one is.")):
             self.assertIn("begins with", check_language.problem(name, line), line)
 
     def test_wires_that_hear(self) -> None:
