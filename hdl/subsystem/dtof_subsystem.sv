@@ -35,7 +35,7 @@ module dtof_subsystem #(
     parameter int PIXELS_PER_SRAM = 160,          // pixels a column serves
     parameter int SRAM_NUM = 200,                 // columns working in parallel
     parameter int SLOTS = 2,                      // timestamps per pixel and acquisition
-    // bits of a histogram bin, a counter that never wraps
+    // bits of a histogram bin's counter, which never wraps
     parameter int COUNT_WIDTH = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 7
         : 10,
     parameter int POINTER_STEP = 1,               // bins a pointer moves per timestamp
@@ -43,18 +43,18 @@ module dtof_subsystem #(
     parameter int FRACTION_BITS = (READOUT == dtof_pkg::READOUT_COARSEHISTOGRAM) ? dtof_pkg::min_of(2, (16 - NP))
         : 0,
     parameter int CONFIDENCE_WIDTH = 4,           // bits of a pointer's confidence, 0 for none
-    parameter int GUARD = ((2 << NP) + 44) / 45,  // hisPointer: side band beyond half a coarse bin, the FWHM of 2 ns in 45 ns
+    parameter int GUARD = ((2 << NP) + 44) / 45,  // hisPointer: codes by which the window is wider than half a coarse bin on either side; default: a FWHM of 2 ns in a range of 45 ns
     parameter int WINDOW_CENTRED = 0,             // SiFH: window centred on the coarse bin (Fig. 3.8) instead of Eq. 2.5
-    parameter int POINTER_PORTS = 2,              // ports of the pointer SRAM; 1 halves its cell
-    parameter int SIGNALLED_CLEAR = 0,            // one status bit an address instead of clearing
+    parameter int POINTER_PORTS = 2,              // ports of the pointer SRAM; with 1 its cells have half the area
+    parameter int SIGNALLED_CLEAR = 0,            // 1: one status bit for each address instead of clearing the SRAM
     parameter int PARITY = 0,                     // 1: each word of the SRAMs has a parity bit, which is checked at each read
     parameter int TIME_GATE = 0,                  // 1: only timestamps from `gate_begin_i` to below `gate_end_i` count
     parameter int RAW_HISTOGRAM = 0,              // 1: a frame may send histograms instead of results (`raw_i`)
     parameter int ACQ_WIDTH = 16,                 // bits of the run-time number of acquisitions
-    parameter int BROADCAST_STAGES = 2,           // registers between the shared logic and the columns; they delay, and change no result
+    parameter int BROADCAST_STAGES = 2,           // registers between the control and the columns; they add delay and change no result
     parameter int GROUP_SIZE = 4,                 // rows of a group, which shares a coarse histogram
     parameter int LABELS = 5,                     // candidates of a group
-    parameter int SCORE_BITS = 4,                 // bits of their scores
+    parameter int SCORE_BITS = 4,                 // bits of a candidate's score
     parameter int OFFSET_BITS = 6,                // bits of a leader's offset in the track phase, 0 for none
     parameter int ADVANTAGE_WIDTH = 7,            // bits of the leader's advantage
     parameter int POINTER_SHIFT = 1,              // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins

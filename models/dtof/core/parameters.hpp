@@ -30,7 +30,7 @@ struct PoolPointerParameters {
   int group_size = 4;
   /// LABELS: candidates of a group
   int labels = 5;
-  /// SCORE_BITS: bits of their scores
+  /// SCORE_BITS: bits of a candidate's score
   int score_bits = 4;
   /// OFFSET_BITS: bits of a leader's offset in the track phase, 0 for none
   int offset_bits = 6;
@@ -111,7 +111,7 @@ struct ReadoutParameters {
   int nb = 5;
   /// SLOTS: timestamps per pixel and acquisition
   int slots = 2;
-  /// COUNT_WIDTH: bits of a histogram bin, a counter that never wraps
+  /// COUNT_WIDTH: bits of a histogram bin's counter, which never wraps
   int count_width = 10;
   /// POINTER_STEP: bins a pointer moves per timestamp
   int pointer_step = 1;
@@ -119,7 +119,7 @@ struct ReadoutParameters {
   int fraction_bits = 0;
   /// CONFIDENCE_WIDTH: bits of a pointer's confidence, 0 for none
   int confidence_width = 4;
-  /// GUARD: hisPointer: side band beyond half a coarse bin, the FWHM of 2 ns in 45 ns
+  /// GUARD: hisPointer: codes by which the window is wider than half a coarse bin on either side; default: a FWHM of 2 ns in a range of 45 ns
   int guard = 46;
   /// WINDOW_CENTRED: SiFH: window centred on the coarse bin (Fig. 3.8) instead of Eq. 2.5
   bool window_centred = false;
