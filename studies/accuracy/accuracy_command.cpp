@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <memory>
 
+#include "accuracy/accuracy_page.hpp"
 #include "accuracy/accuracy_study.hpp"
 #include "accuracy/accuracy_tables.hpp"
 #include "command_line/option_checks.hpp"
@@ -18,7 +17,6 @@
 #include "common/map_accuracy.hpp"
 #include "dtof/analytic/fidelity.hpp"
 #include "dtof/core/error.hpp"
-#include "dtof/frame/flat_calibration.hpp"
 #include "dtof/frame/frame_truth.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
@@ -49,11 +47,6 @@ struct AccuracyOptions {
   std::string out = "build/accuracy";
   std::string command_line;
 };
-
-/// What the reports call the photon model: auto always takes the exact one for streams.
-std::string photon_model_title(const SensorOptions& options) {
-  return options.fidelity == "auto" ? "auto, which draws streams exactly" : options.fidelity;
-}
 
 /// The photon model for a source's scene, whose streams all read-outs share; one with noise.
 Fidelity noisy_model(const SensorOptions& options, const PhotonSource& exact) {
@@ -99,51 +92,6 @@ StudySettings settings_of(const AccuracyOptions& options) {
   return settings;
 }
 
-std::string heading(const AccuracyOptions& options, const StudySettings& settings) {
-  return fmt::format(
-      "Sensor {}, reflectivity {:g}, {} acquisitions per frame, engine {}, photon model {}, seed {}. {} "
-      "frames "
-      "per distance{}.\n"
-      "The look-up table is that of calibration run {}: {} frames at every {:g} m, at the same light. It "
-      "does "
-      "not depend on\n"
-      "the seed; all figures after the table are those of this one table.\n",
-      settings.sensor.name, settings.reflectivity, settings.sensor.acquisitions, options.run.engine,
-      photon_model_title(options.sensor), options.run.seed, settings.frames,
-      settings.precision
-          ? fmt::format(
-                " or more, up to {}, until the intervals of relative precision and rmse are within {:g} % "
-                "and "
-                "outliers are either ten or more, or none in so many frames that they are rarer than {:g} %",
-                settings.most_frames, *settings.precision * 100.0, settings.rare_outliers * 100.0)
-          : "",
-      settings.calibration_seed, settings.calibration_frames, settings.calibration_step_m);
-}
-
-constexpr const char* kLegend =
-    "In brackets: 95 % confidence intervals, closed forms (Student's t for the bias, Wilson's score for "
-    "shares, the\n"
-    "fourth moment and the delta method for relative precision and rmse); `make coverage-study` checks "
-    "them.\n"
-    "* fewer than ten outliers were seen. A share's interval is then the exact one (Clopper and Pearson). "
-    "For the\n"
-    "other figures the brackets take outliers to be like those seen, and the second interval holds whatever "
-    "those too\n"
-    "rare to be seen are, up to the sensor's range. An outlier is here a result farther than six robust\n"
-    "deviations (quartile range / 1.349) from the median.\n"
-    "Relative precision (Eq. 3.14), bias and slope are those of Eq. 3.11, before the look-up table; rmse, "
-    "shares\n"
-    "of errors and efficiency (Cramer-Rao bound / rmse) are those after it. Slope: change of measured over "
-    "change\n"
-    "of true distance between the neighbouring distances. The matched filter has the full histogram and "
-    "knows\n"
-    "both rates.\n"
-    "An efficiency above 1 is no error: at close range pile-up shifts the pulse the more, the brighter it "
-    "is, and all\n"
-    "targets here have one reflectivity, so that brightness tells the distance too; the bound knows arrival "
-    "times "
-    "only.\n";
-
 struct Picture {
   const char* name;
   const char* y_label;
@@ -187,51 +135,12 @@ void run_accuracy_command(const AccuracyOptions& options) {
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
   std::vector<AccuracyPoint> all;
-  std::string report = fmt::format("# Accuracy\n\n{}\n{}", heading(options, settings), kLegend);
+  std::vector<LightAccuracy> lights;
   for (const double klux : options.klux) {
     settings.klux = klux;
-    const AccuracyStudy study = run_accuracy_study(settings);
+    lights.push_back({klux, run_accuracy_study(settings)});
+    const AccuracyStudy& study = lights.back().study;
     all.insert(all.end(), study.points.begin(), study.points.end());
-    const std::string overview = fmt::format(
-        "Relative precision, %:\n\n{}\nRmse after the look-up table, % of distance:\n\n{}\nErrors above 10 "
-        "%, "
-        "%:\n\n{}\n",
-        accuracy_matrix(
-            study.points,
-            [](const auto& p) { return fmt::format("{:.2f}", p.relative_precision.value * 100.0); })
-            .markdown(),
-        accuracy_matrix(
-            study.points,
-            [](const auto& p) { return fmt::format("{:.2f}", p.rmse_m.value / p.distance_m * 100.0); })
-            .markdown(),
-        accuracy_matrix(study.points, [](const auto& p) {
-          return fmt::format("{:.1f}", p.outlier_rate.value * 100.0);
-        }).markdown());
-    report += fmt::format("\n## {:g} klux\n\n{}", klux, overview);
-    fmt::print("{:g} klux, photon model {}\n\n{}", klux, photon_model_title(options.sensor), overview);
-    if (!study.without_rejection.empty()) {
-      const std::string sentence =
-          fmt::format("No confidence leaves as few outliers as wanted, so nothing is rejected: {}.\n",
-                      fmt::join(study.without_rejection, ", "));
-      report += sentence;
-      fmt::print("{}", sentence);
-    }
-    if (settings.precision) {
-      const auto short_of = std::ranges::count(study.points, false, &AccuracyPoint::precision_reached);
-      const auto most = std::ranges::max(study.points, {}, &AccuracyPoint::frames).frames;
-      const std::string sentence =
-          fmt::format("Precision reached at {} of {} points, with up to {} frames.\n",
-                      study.points.size() - static_cast<std::size_t>(short_of), study.points.size(), most);
-      report += sentence;
-      fmt::print("{}\nFrames:\n\n{}\n", sentence, accuracy_matrix(study.points, [](const auto& p) {
-                                                    return fmt::format("{}{}", p.frames,
-                                                                       p.precision_reached ? "" : "+");
-                                                  }).markdown());
-    }
-    for_each_estimator(study.points, [&](std::span<const AccuracyPoint> points) {
-      report += fmt::format("\n### {}, {:g} klux\n\n{}", points.front().title, klux,
-                            accuracy_table(points).markdown());
-    });
     for (const Picture& picture : pictures()) {
       write_plot(folder / fmt::format("{}_{:g}klux.svg", picture.name, klux),
                  accuracy_series(study.points, picture.value),
@@ -243,36 +152,11 @@ void run_accuracy_command(const AccuracyOptions& options) {
                   .y_limits = picture.limits});
     }
   }
-  report += fmt::format("\nCommand: `{}`\n", options.command_line);
   write_file(folder / "accuracy.csv", accuracy_csv(all).csv());
-  write_file(folder / "accuracy.md", report);
-  fmt::print("Seed {}. Tables with confidence intervals and plots are in {}\n", options.run.seed,
+  const PageData page = accuracy_page(settings, options.sensor.fidelity, lights);
+  write_page(folder, "accuracy", "accuracy", page);
+  fmt::print("{}\nTables with confidence intervals and plots are in {}\n", page_text("accuracy", page),
              options.out);
-}
-
-/// Bands down, read-outs across; the last row is the whole range.
-Table band_matrix(const std::vector<BandAccuracy>& rows,
-                  const std::function<std::string(const BandAccuracy&)>& cell) {
-  std::vector<std::string> header = {"distance m", "pixels"};
-  std::vector<std::vector<std::string>> lines;
-  std::size_t line = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const BandAccuracy& row = rows[i];
-    if (i == 0 || row.readout != rows[i - 1].readout) {
-      header.push_back(row.title);
-      line = 0;
-    }
-    if (line == lines.size()) {
-      lines.push_back({fmt::format("{:.2f} to {:.2f}", row.from_m, row.to_m), fmt::format("{}", row.pixels)});
-    }
-    lines[line].push_back(cell(row));
-    ++line;
-  }
-  Table table(std::move(header));
-  for (std::vector<std::string>& cells : lines) {
-    table.add(std::move(cells));
-  }
-  return table;
 }
 
 Table band_csv(const std::vector<BandAccuracy>& rows) {
@@ -306,7 +190,6 @@ OwnMap read_own_scene(const AccuracyOptions& options, const StudySettings& sweep
   }
   OwnMap cube = read_own_cube(options.cube, sensor, sensor.columns, sensor.rows, sweep.reflectivity);
   require_reachable(cube.targets, sensor, options.cube.file);
-  cube.description += " A pixel's distance is that of its strongest return.";
   return cube;
 }
 
@@ -341,37 +224,19 @@ void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
   settings.run.streams_only = true;  // the photon model was chosen for streams
   settings.command = options.command_line;
   std::vector<BandAccuracy> all;
-  std::string report;
+  std::vector<LightBands> lights;
   for (const double klux : options.klux) {
     settings.klux = klux;
-    const std::vector<BandAccuracy> rows = run_map_accuracy(settings);
-    all.insert(all.end(), rows.begin(), rows.end());
-    const auto part = [&](const char* title, const std::function<std::string(const BandAccuracy&)>& cell) {
-      return fmt::format("{}\n\n{}\n", title, band_matrix(rows, cell).markdown());
-    };
-    report += fmt::format("\n## {:g} klux\n\n", klux);
-    report += part("Rmse, mm:", [](const auto& row) { return format_estimate(row.rmse_m, 1e3, 0); });
-    report += part("Bias, mm:", [](const auto& row) { return format_estimate(row.bias_m, 1e3, 1); });
-    report += part("Errors above 3 %, % of pixels:",
-                   [](const auto& row) { return format_estimate(row.above_3_percent, 100.0, 2); });
-    report += part("Errors above 10 %, % of pixels:",
-                   [](const auto& row) { return format_estimate(row.above_10_percent, 100.0, 2); });
+    lights.push_back({klux, run_map_accuracy(settings)});
+    all.insert(all.end(), lights.back().bands.begin(), lights.back().bands.end());
   }
-  const std::string heading = fmt::format(
-      "{}\nSensor {}, {} acquisitions a frame, {} frames, engine {}, photon model {}, seed {}.\n{}\nErrors "
-      "are "
-      "against each pixel's own distance, by bands of it; the last line is the whole range. In brackets: 95 "
-      "% "
-      "confidence intervals over the frames.\n",
-      map.description, settings.sensor.name, settings.sensor.acquisitions, settings.frames,
-      options.run.engine, photon_model_title(options.sensor), options.run.seed,
-      table_sentence(TableRule::kFlat, settings.sensor, options.run.seed));
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
   write_file(folder / "accuracy.csv", band_csv(all).csv());
-  write_file(folder / "accuracy.md", fmt::format("# Accuracy over a map\n\n{}{}\nCommand: `{}`\n", heading,
-                                                 report, options.command_line));
-  fmt::print("{}{}Tables are in {}\n", heading, report, options.out);
+  const PageData page = map_accuracy_page(settings, {map.description, !options.cube.file.empty()},
+                                          options.sensor.fidelity, lights);
+  write_page(folder, "accuracy", "accuracy_over_a_map", page);
+  fmt::print("{}\nTables are in {}\n", page_text("accuracy_over_a_map", page), options.out);
 }
 
 /// Checks the options and measures the sweep, the map or the cube that they name.

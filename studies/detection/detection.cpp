@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
 #include "common/engine_frame.hpp"
 #include "common/percent_text.hpp"
@@ -103,30 +105,64 @@ std::vector<PixelTarget> skies(const DetectionSettings& settings) {
 
 constexpr double kMost = 0.9;
 
-/// "poolPointer to 5 m" of each read-out that detects most pixels of some wall at a light.
-std::string answer(const DetectionSettings& settings, const std::vector<ReadoutDetection>& study) {
-  std::string text;
-  for (const double klux : settings.klux) {
-    std::vector<std::string> found;
-    for (const ReadoutDetection& readout : study) {
-      double farthest = 0.0;
-      for (const DetectionCell& cell : readout.cells) {
-        if (cell.klux == klux && cell.detected.value >= kMost) {
-          farthest = std::max(farthest, cell.distance_m);
-        }
-      }
-      if (farthest > 0.0) {
-        found.push_back(fmt::format("{} to {:g} m", readout_title(readout.readout), farthest));
+/// "poolPointer to 5 m" of each read-out that detects most pixels of some wall at the light.
+std::vector<std::string> reaches(const std::vector<ReadoutDetection>& study, double klux) {
+  std::vector<std::string> found;
+  for (const ReadoutDetection& readout : study) {
+    double farthest = 0.0;
+    for (const DetectionCell& cell : readout.cells) {
+      if (cell.klux == klux && cell.detected.value >= kMost) {
+        farthest = std::max(farthest, cell.distance_m);
       }
     }
-    text += fmt::format("* At {:g} klux at least {:g} % of a wall's pixels pass and are right: {}.\n", klux,
-                        100.0 * kMost,
-                        found.empty() ? "of no read-out" : fmt::format("{}", fmt::join(found, ", ")));
+    if (farthest > 0.0) {
+      found.push_back(fmt::format("{} to {:g} m", readout_title(readout.readout), farthest));
+    }
   }
-  return text + "\n";
+  return found;
+}
+
+PageData answer(const std::vector<ReadoutDetection>& study, double klux) {
+  const std::vector<std::string> readouts = reaches(study, klux);
+  std::optional<PageData> detected;
+  if (!readouts.empty()) {
+    detected = PageData().set("by_readouts", "{}", fmt::join(readouts, ", "));
+  }
+  return PageData()
+      .set("klux", "{:g}", klux)
+      .set("percent", "{:g}", 100.0 * kMost)
+      .part("detected", std::move(detected));
 }
 
 std::string title_of(const ReadoutDetection& readout) { return std::string(readout_title(readout.readout)); }
+
+Table thresholds_table(const std::vector<ReadoutDetection>& study) {
+  Table table({"read-out", "threshold", "most false alarms of a held-out sky, in 1e-3"});
+  for (const ReadoutDetection& readout : study) {
+    table.add({title_of(readout), fmt::format("{}", readout.threshold),
+               fmt::format("{:.2f}", 1e3 * std::ranges::max(readout.held_out_alarms))});
+  }
+  return table;
+}
+
+Table walls_table(const DetectionSettings& settings, const std::vector<ReadoutDetection>& study,
+                  double klux) {
+  std::vector<std::string> header = {"read-out"};
+  for (const double distance : settings.distances_m) {
+    header.push_back(fmt::format("{:g} m", distance));
+  }
+  Table table(std::move(header));
+  for (const ReadoutDetection& readout : study) {
+    std::vector<std::string> row = {title_of(readout)};
+    for (const DetectionCell& cell : readout.cells) {
+      if (cell.klux == klux) {
+        row.push_back(fmt::format("{:.2f} / {:.2f}", 100.0 * cell.detected.value, 100.0 * cell.right.value));
+      }
+    }
+    table.add(std::move(row));
+  }
+  return table;
+}
 
 }  // namespace
 
@@ -183,54 +219,32 @@ std::vector<ReadoutDetection> run_detection(const DetectionSettings& settings) {
   return study;
 }
 
-std::string detection_report(const DetectionSettings& settings, const std::vector<ReadoutDetection>& study,
-                             const std::string& command_line) {
-  std::string text = fmt::format(
-      "# Is there a target?\n\nOne threshold of confidence for each read-out, sensor `{}`: at most {:g} of "
-      "the "
-      "pixels pass in any frame of sky alone, from {:g} to {:g} klux and for skies like surfaces of "
-      "reflectivity {:g} to {:g}. Walls of reflectivity {:g}.\n\n",
-      settings.sensor.name, settings.false_alarms, std::ranges::min(settings.klux),
-      std::ranges::max(settings.klux), std::ranges::min(settings.sky_reflectivities),
-      std::ranges::max(settings.sky_reflectivities), settings.wall_reflectivity);
-  text += answer(settings, study);
-  Table thresholds({"read-out", "threshold", "most false alarms of a held-out sky, in 1e-3"});
-  for (const ReadoutDetection& readout : study) {
-    thresholds.add({title_of(readout), fmt::format("{}", readout.threshold),
-                    fmt::format("{:.2f}", 1e3 * std::ranges::max(readout.held_out_alarms))});
-  }
-  text += thresholds.markdown();
+PageData detection_page(const DetectionSettings& settings, const std::vector<ReadoutDetection>& study,
+                        const std::string& command_line) {
+  std::vector<PageData> answers;
+  std::vector<PageData> lights;
   for (const double klux : settings.klux) {
-    text += fmt::format(
-        "\n## {:g} klux\n\nPixels of the wall that pass the threshold and are at most 10 % off / that are at "
-        "most 10 % off, in %:\n\n",
-        klux);
-    std::vector<std::string> header = {"read-out"};
-    for (const double distance : settings.distances_m) {
-      header.push_back(fmt::format("{:g} m", distance));
-    }
-    Table table(header);
-    for (const ReadoutDetection& readout : study) {
-      std::vector<std::string> row = {title_of(readout)};
-      for (const DetectionCell& cell : readout.cells) {
-        if (cell.klux == klux) {
-          row.push_back(
-              fmt::format("{:.2f} / {:.2f}", 100.0 * cell.detected.value, 100.0 * cell.right.value));
-        }
-      }
-      table.add(std::move(row));
-    }
-    text += table.markdown();
+    answers.push_back(answer(study, klux));
+    lights.push_back(
+        PageData().set("klux", "{:g}", klux).set("pixels_of_walls", walls_table(settings, study, klux)));
   }
-  text += fmt::format(
-      "\n## How it was measured\n\nModels, exact photons, {} seeds: {} columns of {} rows that look at one "
-      "target. The threshold is the lowest confidence that at most {:g} of the pixels reach in each of {} "
-      "skies; "
-      "false alarms are counted in frames of other seeds. Intervals: data/detection.csv.gz.\n\n"
-      "Command: `{}`\n",
-      settings.seeds, engine_columns_judged(), settings.sensor.rows, settings.false_alarms,
-      settings.klux.size() * settings.sky_reflectivities.size(), command_line);
-  return text;
+  PageData data;
+  data.set("sensor", "{}", settings.sensor.name)
+      .set("false_alarms", "{:g}", settings.false_alarms)
+      .set("least_klux", "{:g}", std::ranges::min(settings.klux))
+      .set("most_klux", "{:g}", std::ranges::max(settings.klux))
+      .set("darkest_sky", "{:g}", std::ranges::min(settings.sky_reflectivities))
+      .set("brightest_sky", "{:g}", std::ranges::max(settings.sky_reflectivities))
+      .set("wall_reflectivity", "{:g}", settings.wall_reflectivity)
+      .list("answers", std::move(answers))
+      .set("thresholds", thresholds_table(study))
+      .list("lights", std::move(lights))
+      .set("seeds", "{}", settings.seeds)
+      .set("columns", "{}", engine_columns_judged())
+      .set("rows", "{}", settings.sensor.rows)
+      .set("skies", "{}", settings.klux.size() * settings.sky_reflectivities.size())
+      .set("command", "{}", command_line);
+  return data;
 }
 
 Table detection_csv(const std::vector<ReadoutDetection>& study) {

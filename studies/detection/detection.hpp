@@ -10,6 +10,7 @@
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
@@ -48,8 +49,9 @@ struct ReadoutDetection {
 /// InputError for settings out of range.
 std::vector<ReadoutDetection> run_detection(const DetectionSettings& settings);
 
-std::string detection_report(const DetectionSettings& settings, const std::vector<ReadoutDetection>& study,
-                             const std::string& command_line);
+/// What detection.mustache shows.
+PageData detection_page(const DetectionSettings& settings, const std::vector<ReadoutDetection>& study,
+                        const std::string& command_line);
 Table detection_csv(const std::vector<ReadoutDetection>& study);
 /// Light level of the picture: the one nearest to 50 klux.
 double detection_klux(const DetectionSettings& settings);

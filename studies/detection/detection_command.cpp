@@ -32,7 +32,7 @@ void run_detection_command(DetectionOptions options) {
   const std::filesystem::path folder(options.out);
   create_output_folder(folder / "data");
   const std::vector<ReadoutDetection> study = run_detection(settings);
-  write_file(folder / "detection.md", detection_report(settings, study, options.command_line));
+  write_page(folder, "detection", "detection", detection_page(settings, study, options.command_line));
   write_gzip_file(folder / "data/detection.csv.gz", detection_csv(study).csv());
   write_plot(
       folder / "detection.svg", detection_curves(settings, study),

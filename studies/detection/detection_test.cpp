@@ -58,7 +58,17 @@ TEST(Detection, ReportAndPictureHaveEveryCell) {
            {14.0, 4.0, {.value = 0.875, .interval = {0.8, 0.9}}, {.value = 1.0, .interval = {1.0, 1.0}}},
            {50.0, 3.0, {.value = 0.5, .interval = {0.4, 0.6}}, {.value = 1.0, .interval = {1.0, 1.0}}},
            {50.0, 4.0, {.value = 0.25, .interval = {0.2, 0.3}}, {.value = 1.0, .interval = {1.0, 1.0}}}}}};
-  const std::string report = detection_report(settings, study, "dtof-study detection");
+  const std::string report = page_text("detection", detection_page(settings, study, "dtof-study detection"));
+  EXPECT_THAT(report,
+              HasSubstr("\n\nOne threshold of confidence for each read-out, sensor `thesis`: at most 0.01 of "
+                        "the pixels pass in any frame of sky alone, from 14 to 50 klux and for skies like "
+                        "surfaces of reflectivity 0.5 to 2. Walls of reflectivity 0.5.\n\n* At 14 klux "));
+  EXPECT_THAT(
+      report,
+      HasSubstr("\n\nModels, exact photons, 2 seeds: 34 columns of 24 rows that look at one target. "
+                "The threshold is the lowest confidence that at most 0.01 of the pixels reach in each "
+                "of 6 skies; false alarms are counted in frames of other seeds. Intervals: "
+                "data/detection.csv.gz.\n\nCommand: `dtof-study detection`\n"));
   EXPECT_THAT(report, HasSubstr("87.50 / 100.00"));
   EXPECT_THAT(report, HasSubstr("25.00 / 100.00"));
   EXPECT_THAT(

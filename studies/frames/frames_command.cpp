@@ -46,10 +46,10 @@ void run_frames_command(FramesOptions options) {
   const std::vector<StandardFrame> frames = run_standard_frames(settings);
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
-  const std::string report = standard_frames_report(settings, frames, checked, options.command_line);
+  const PageData page = standard_frames_page(settings, frames, checked, options.command_line);
   write_file(folder / "frames.csv", standard_frames_csv(frames).csv());
-  write_file(folder / "frames.md", report);
-  fmt::print("{}\nThe report is {}\n", report, (folder / "frames.md").string());
+  write_page(folder, "frames", "frames", page);
+  fmt::print("{}\nThe report is {}\n", page_text("frames", page), (folder / "frames.md").string());
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "frames/standard_frames.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,8 +76,7 @@ std::string per_cent(const Estimate& share) {
 
 /// Read-outs down, sensors across.
 template <typename Cell>
-std::string matrix(const StandardFramesSettings& settings, const std::vector<StandardFrame>& frames,
-                   Cell cell) {
+Table matrix(const StandardFramesSettings& settings, const std::vector<StandardFrame>& frames, Cell cell) {
   std::vector<std::string> header = {"read-out"};
   for (const SensorModel& sensor : settings.sensors) {
     header.push_back(sensor.name);
@@ -91,7 +89,33 @@ std::string matrix(const StandardFramesSettings& settings, const std::vector<Sta
     }
     table.add(std::move(row));
   }
-  return table.markdown();
+  return table;
+}
+
+std::vector<PageData> sensors_data(const StandardFramesSettings& settings) {
+  std::vector<PageData> sensors;
+  for (const SensorModel& sensor : settings.sensors) {
+    sensors.push_back(PageData()
+                          .set("sensor", "{}", sensor.name)
+                          .set("acquisitions", "{}", sensor.acquisitions)
+                          .set("signal_events", "{:.3g}", sensor.signal_events(1.0, 1.0))
+                          .flag("last", &sensor == &settings.sensors.back()));
+  }
+  return sensors;
+}
+
+std::vector<PageData> checked_data(const std::vector<CheckedFrame>& checked) {
+  std::vector<PageData> frames;
+  for (const CheckedFrame& frame : checked) {
+    frames.push_back(PageData()
+                         .set("sensor", "{}", frame.sensor)
+                         .set("readout", "{}", readout_title(frame.readout))
+                         .set("columns_read", "{}", frame.columns)
+                         .set("rows_read", "{}", frame.rows)
+                         .set("acquisitions", "{}", frame.acquisitions)
+                         .set("clocks", "{}", frame.cycles));
+  }
+  return frames;
 }
 
 }  // namespace
@@ -160,51 +184,33 @@ std::vector<CheckedFrame> check_standard_frames(const StandardFramesSettings& se
   return checked;
 }
 
-std::string standard_frames_report(const StandardFramesSettings& settings,
-                                   const std::vector<StandardFrame>& frames,
-                                   const std::vector<CheckedFrame>& checked,
-                                   const std::string& command_line) {
-  std::vector<std::string> sensors;
-  for (const SensorModel& sensor : settings.sensors) {
-    sensors.push_back(fmt::format("{} ({} acquisitions, {:.3g} / R^2 signal events a pulse)", sensor.name,
-                                  sensor.acquisitions, sensor.signal_events(1.0, 1.0)));
-  }
-  std::string report = fmt::format(
-      "# Standard frames\n\nScene {}: {} x {} pixels, {:g} klux, sensor {}; models, exact photons, {} frames "
-      "with seed {}.\n\n",
-      scene_name(settings.scene), settings.sensors.front().columns, settings.sensors.front().rows,
-      settings.klux, fmt::join(sensors, ", "), settings.frames, settings.seed);
-  report += "## Pixels above 3 %, in % of all\n\n" + matrix(settings, frames, [](const StandardFrame& frame) {
-              return per_cent(frame.above_3_percent);
-            });
-  report +=
-      "\n## Pixels above 10 %, in % of all\n\n" +
-      matrix(settings, frames, [](const StandardFrame& frame) { return per_cent(frame.above_10_percent); });
-  report +=
-      "\n## Errors above 10 % among the tenth of the pixels with the least confidence, in % of these "
-      "errors\n\n" +
-      matrix(settings, frames, [](const StandardFrame& frame) {
-        return std::isfinite(frame.found_by_confidence)
-                   ? fmt::format("{:.0f}", 100.0 * frame.found_by_confidence)
-                   : std::string("-");
-      });
-  report +=
-      "\nEach read-out has a look-up table from flat targets, as in `dtof frame`; the first frame's figures "
-      "are those of "
-      "`dtof frame --sensor NAME`. Intervals (95 %) come from the spread of the frames, and are at least "
-      "Wilson's for "
-      "independent pixels.\n";
-  if (checked.empty()) {
-    report += "\nNo RTL was run.\n";
-  }
-  for (const CheckedFrame& frame : checked) {
-    report += fmt::format(
-        "\nRTL with {}: {}, {} columns of {} rows, {} acquisitions, seed {}: every pixel equal to the "
-        "model, {} clocks.\n",
-        frame.sensor, readout_title(frame.readout), frame.columns, frame.rows, frame.acquisitions,
-        settings.seed, frame.cycles);
-  }
-  return report + fmt::format("\nCommand: `{}`\n", command_line);
+PageData standard_frames_page(const StandardFramesSettings& settings,
+                              const std::vector<StandardFrame>& frames,
+                              const std::vector<CheckedFrame>& checked, const std::string& command_line) {
+  PageData data;
+  data.set("scene", "{}", scene_name(settings.scene))
+      .set("columns", "{}", settings.sensors.front().columns)
+      .set("rows", "{}", settings.sensors.front().rows)
+      .set("klux", "{:g}", settings.klux)
+      .list("sensors", sensors_data(settings))
+      .set("frames", "{}", settings.frames)
+      .set("seed", "{}", settings.seed)
+      .set("above_3_percent",
+           matrix(settings, frames,
+                  [](const StandardFrame& frame) { return per_cent(frame.above_3_percent); }))
+      .set("above_10_percent",
+           matrix(settings, frames,
+                  [](const StandardFrame& frame) { return per_cent(frame.above_10_percent); }))
+      .set("found_by_confidence", matrix(settings, frames,
+                                         [](const StandardFrame& frame) {
+                                           return std::isfinite(frame.found_by_confidence)
+                                                      ? fmt::format("{:.0f}",
+                                                                    100.0 * frame.found_by_confidence)
+                                                      : std::string("-");
+                                         }))
+      .list("checked", checked_data(checked))
+      .set("command", "{}", command_line);
+  return data;
 }
 
 Table standard_frames_csv(const std::vector<StandardFrame>& frames) {

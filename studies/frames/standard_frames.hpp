@@ -10,6 +10,7 @@
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/report/table.hpp"
 #include "dtof/scene/scene.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
@@ -57,10 +58,10 @@ struct CheckedFrame {
 /// model. Throws RtlError for a difference, InputError for a read-out without compiled RTL.
 std::vector<CheckedFrame> check_standard_frames(const StandardFramesSettings& settings, Readout readout);
 
-/// Report page: a row per read-out, a column per sensor.
-std::string standard_frames_report(const StandardFramesSettings& settings,
-                                   const std::vector<StandardFrame>& frames,
-                                   const std::vector<CheckedFrame>& checked, const std::string& command_line);
+/// What frames.mustache shows: in its tables a row per read-out, a column per sensor.
+PageData standard_frames_page(const StandardFramesSettings& settings,
+                              const std::vector<StandardFrame>& frames,
+                              const std::vector<CheckedFrame>& checked, const std::string& command_line);
 Table standard_frames_csv(const std::vector<StandardFrame>& frames);
 
 }  // namespace dtof

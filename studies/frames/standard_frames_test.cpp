@@ -15,7 +15,9 @@
 namespace dtof {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
+using testing::StartsWith;
 using testing::ThrowsMessage;
 
 SensorModel small_sensor(const char* preset, std::uint32_t acquisitions) {
@@ -76,15 +78,20 @@ TEST(StandardFrames, ReportHasTheSensorsBesideEachOther) {
     frames[i].above_3_percent = estimate_share(i, 10);
     frames[i].found_by_confidence = i == 0 ? std::nan("") : 0.25;
   }
-  const std::string report = standard_frames_report(
-      settings, frames, {{"thesis_full", Readout::kPoolPointer, 34, 16, 1000, 4711}}, "the command");
-  EXPECT_THAT(report, HasSubstr("Scene room: 34 x 16 pixels, 14 klux, sensor thesis (100 acquisitions"));
-  EXPECT_THAT(report, HasSubstr("thesis_full (1000 acquisitions, 0.3 / R^2 signal events a pulse)"));
+  const auto page = [&](const std::vector<CheckedFrame>& checked) {
+    return page_text("frames", standard_frames_page(settings, frames, checked, "the command"));
+  };
+  const std::string report = page({{"thesis_full", Readout::kPoolPointer, 34, 16, 1000, 4711}});
+  EXPECT_THAT(report,
+              StartsWith("# Standard frames\n\nScene room: 34 x 16 pixels, 14 klux, sensor thesis (100 "
+                         "acquisitions, 0.3 / R^2 signal events a pulse), thesis_full (1000 acquisitions, "
+                         "0.3 / R^2 signal events a pulse); models, exact photons, 2 frames with seed "
+                         "1.\n\n## Pixels above 3 %, in % of all\n\n| read-out "));
   EXPECT_THAT(report, HasSubstr("30.00 ("));
-  EXPECT_THAT(
-      report,
-      HasSubstr("RTL with thesis_full: poolPointer, 34 columns of 16 rows, 1000 acquisitions, seed 1: "
-                "every pixel equal to the model, 4711 clocks."));
+  EXPECT_THAT(report,
+              EndsWith("RTL with thesis_full: poolPointer, 34 columns of 16 rows, 1000 acquisitions, seed 1: "
+                       "every pixel equal to the model, 4711 clocks.\n\nCommand: `the command`\n"));
+  EXPECT_THAT(page({}), HasSubstr("pixels.\n\nNo RTL was run.\n\nCommand: "));
   EXPECT_THAT(standard_frames_csv(frames).csv(), HasSubstr("\nthesis,poolpointer,poolPointer,"));
 }
 

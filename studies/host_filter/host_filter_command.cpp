@@ -73,7 +73,7 @@ void run_host_filter(HostFilterOptions options) {
                 .logarithmic_y = true,
                 .logarithmic_x = true});
   }
-  write_file(folder / "host_filter.md", host_filter_report(report));
+  write_page(folder, "host_filter", "host_filter", host_filter_page(report));
   fmt::print("\nThe report is {}\n", (folder / "host_filter.md").string());
 }
 

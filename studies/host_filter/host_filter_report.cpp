@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "dtof/frame/flat_calibration.hpp"
@@ -102,36 +103,29 @@ Table host_filter_table(const FilterLight& light) {
   return table;
 }
 
-std::string host_filter_report(const HostFilterReport& report) {
+PageData host_filter_page(const HostFilterReport& report) {
   const HostFilterSettings& settings = report.settings;
-  std::string text = fmt::format(
-      "# Host filter\n\n"
-      "Percentage of wrong pixels before and after the host filter ([definition](../docs/reference/"
-      "accuracy.md#host-filter)), sensor {}. The filter and its constants are the same for every read-out. "
-      "The "
-      "constants were chosen on the scenes of `make pool-search`, which no report uses. The tables have the "
-      "{} "
-      "middle columns of each map. Seeds {} to {} set the photons and the random shapes. +- is half of the "
-      "95 % interval over the seeds. An edge pixel has a neighbour whose distance differs by more than 10 %. "
-      "The distance of a single pixel differs from those of all its neighbours. A flying pixel is an edge "
-      "pixel whose distance is off by more than 3 % from the true distances of the pixel and of its eight "
-      "neighbours.\n\n{}\n\nCommand: `{}`\n",
-      settings.sensor.name, settings.columns, settings.seed,
-      settings.seed + static_cast<std::uint64_t>(settings.seeds) - 1,
-      table_sentence(TableRule::kFlat, settings.sensor, settings.seed), report.command_line);
+  std::optional<PageData> goal;
   if (!report.whole.empty()) {
-    text += fmt::format(
-        "\n## Goal\n\nWhole maps of all scenes together. The goal is met if the whole interval is below the "
-        "limit, and open if the limit is inside the interval.\n\n{}",
-        filter_goal_table(report.whole).markdown());
+    goal = PageData().set("verdicts", filter_goal_table(report.whole));
   }
+  std::vector<PageData> lights;
   for (const FilterLight& light : report.lights) {
-    text += fmt::format(
-        "\n## {:g} klux\n\n### All scenes together\n\n{}\n### Each scene: above 3 %, before / "
-        "after\n\n{}",
-        light.klux(), host_filter_table(light).markdown(), filter_scene_table(light).markdown());
+    lights.push_back(PageData()
+                         .set("klux", "{:g}", light.klux())
+                         .set("all_scenes", host_filter_table(light))
+                         .set("each_scene", filter_scene_table(light)));
   }
-  return text;
+  PageData data;
+  data.set("sensor", "{}", settings.sensor.name)
+      .set("columns", "{}", settings.columns)
+      .set("first_seed", "{}", settings.seed)
+      .set("last_seed", "{}", settings.seed + static_cast<std::uint64_t>(settings.seeds) - 1)
+      .set("look_up_tables", "{}", table_sentence(TableRule::kFlat, settings.sensor, settings.seed))
+      .set("command", "{}", report.command_line)
+      .part("goal", std::move(goal))
+      .list("lights", std::move(lights));
+  return data;
 }
 
 Table host_filter_csv(const HostFilterReport& report) {

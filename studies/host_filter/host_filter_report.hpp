@@ -7,6 +7,7 @@
 #include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
 #include "host_filter/host_filter_study.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
@@ -26,7 +27,8 @@ struct HostFilterReport {
 Table host_filter_table(const FilterLight& light);
 /// "yes" if the interval lies below the limit, "open" if the limit is inside, else "**no**".
 const char* goal_verdict(const Estimate& share, double limit);
-std::string host_filter_report(const HostFilterReport& report);
+/// What host_filter.mustache shows.
+PageData host_filter_page(const HostFilterReport& report);
 Table host_filter_csv(const HostFilterReport& report);
 /// Pixels above 3 % over the light, before and after the filter; empty for fewer than two lights.
 std::vector<PlotSeries> host_filter_curves(const HostFilterReport& report);

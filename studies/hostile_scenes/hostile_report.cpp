@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "common/engine_frame.hpp"
 #include "common/percent_text.hpp"
@@ -31,8 +32,12 @@ std::vector<std::string> named(const HostileSettings& settings,
   return texts;
 }
 
-std::string list_or(const std::vector<std::string>& texts, const char* none) {
-  return texts.empty() ? none : fmt::format("{}", fmt::join(texts, ", "));
+/// The conditions by name; nothing if there is none.
+std::optional<PageData> where(const std::vector<std::string>& named_conditions) {
+  if (named_conditions.empty()) {
+    return std::nullopt;
+  }
+  return PageData().set("where", "{}", fmt::join(named_conditions, ", "));
 }
 
 std::vector<std::string> header(const HostileSettings& settings) {
@@ -43,7 +48,7 @@ std::vector<std::string> header(const HostileSettings& settings) {
   return texts;
 }
 
-std::string error_table(const HostileSettings& settings, const HostileScenes& study, double klux) {
+Table error_table(const HostileSettings& settings, const HostileScenes& study, double klux) {
   Table table(header(settings));
   for (const std::string& condition : settings.conditions) {
     const HostileReadouts& readouts = study.cells.at({condition, klux});
@@ -54,10 +59,10 @@ std::string error_table(const HostileSettings& settings, const HostileScenes& st
     }
     table.add(std::move(row));
   }
-  return table.markdown();
+  return table;
 }
 
-std::string compensated_table(const HostileSettings& settings, const HostileScenes& study, double klux) {
+Table compensated_table(const HostileSettings& settings, const HostileScenes& study, double klux) {
   std::vector<std::string> texts = {"condition"};
   for (const std::string& name : compensated_estimators(settings)) {
     texts.push_back(hostile_title(name));
@@ -72,37 +77,26 @@ std::string compensated_table(const HostileSettings& settings, const HostileScen
     }
     table.add(std::move(row));
   }
-  return table.markdown();
+  return table;
 }
 
-std::string compensated_section(const HostileSettings& settings, const HostileScenes& study) {
+std::optional<PageData> compensated_data(const HostileSettings& settings, const HostileScenes& study) {
   if (compensated_conditions(settings).empty()) {
-    return "";
+    return std::nullopt;
   }
-  std::string text =
-      "\n## With settings for the sensor and its surroundings\n\n"
-      "Settings of a user who knows the sensor and its surroundings. *Cover glass and fog*: the TEMPLATE "
-      "registers of the pool read-outs come from a frame in the dark without a target "
-      "(docs/reference/poolpointer.md, Template). The matched filters count the mean events of that frame as "
-      "background. The matched filters are no bound here: they expect the signal of a target at 3 m, and "
-      "rate a fainter target as less likely than strong crosstalk. The coarse histogram has no setting "
-      "except a gate. *Skew*: S1 of the pool read-outs is off (OUTPUT.SMOOTH), because S1 draws neighbours "
-      "together although their skews differ. *A laser that is silent at first*: SETTLE drops the silent "
-      "acquisitions at the frame's start, and ACQUISITIONS is smaller by the same number, so that a frame "
-      "takes no longer; this holds for all read-outs. *Motion*: each read-out is judged at its own instant "
-      "(below). Pixels with a target above 3 % / above 10 %, in %:\n";
+  std::vector<PageData> lights;
   for (const double klux : settings.klux) {
-    text += fmt::format("\n{:g} klux:\n\n{}", klux, compensated_table(settings, study, klux));
+    lights.push_back(
+        PageData().set("klux", "{:g}", klux).set("errors", compensated_table(settings, study, klux)));
   }
-  return text;
+  return PageData().list("at_lights", std::move(lights));
 }
 
 std::string instant_text(const std::optional<double>& instant) {
   return instant ? fmt::format("{:.2f}", *instant) : "-";
 }
 
-std::string motion_table(const HostileSettings& settings, const HostileScenes& study,
-                         const HostileCell& cell) {
+Table motion_table(const HostileSettings& settings, const HostileScenes& study, const HostileCell& cell) {
   const OwnInstants& own = study.instants.at(cell);
   std::vector<std::string> header = {"read-out", "middle of its part"};
   for (const double distance : own.distances_m) {
@@ -126,30 +120,24 @@ std::string motion_table(const HostileSettings& settings, const HostileScenes& s
     }
     table.add(std::move(row));
   }
-  return table.markdown();
+  return table;
 }
 
-std::string motion_section(const HostileSettings& settings, const HostileScenes& study) {
+std::optional<PageData> motion_data(const HostileSettings& settings, const HostileScenes& study) {
   if (study.instants.empty()) {
-    return "";
+    return std::nullopt;
   }
-  std::string text =
-      "\n## Motion, judged at each read-out's own instant\n\n"
-      "A depth belongs to an instant of the frame, 0 at its start and 1 at its end "
-      "(docs/reference/readouts.md, Instant of a depth). Measured with walls of other seeds that go away and "
-      "come nearer; \"-\": most of the wall's pixels are further off than 0.3 m. *Middle of its part*: of "
-      "the part of the frame that makes the position, beside it. Bias, the mean error of pixels at most 0.3 "
-      "m "
-      "off, and errors in %: against where targets are at the frame's middle, and at the own instant, which "
-      "is between the walls' distances in proportion.\n";
+  std::vector<PageData> motions;
   for (const auto& [cell, instants] : study.instants) {
-    text +=
-        fmt::format("\n{}, {:g} klux:\n\n{}", cell.condition, cell.klux, motion_table(settings, study, cell));
+    motions.push_back(PageData()
+                          .set("condition", "{}", cell.condition)
+                          .set("klux", "{:g}", cell.klux)
+                          .set("instants", motion_table(settings, study, cell)));
   }
-  return text;
+  return PageData().list("motions", std::move(motions));
 }
 
-std::string alarm_table(const HostileSettings& settings, const HostileScenes& study, double klux) {
+Table alarm_table(const HostileSettings& settings, const HostileScenes& study, double klux) {
   Table table(header(settings));
   std::vector<std::string> thresholds = {"threshold"};
   for (const std::string& name : hostile_estimators(settings)) {
@@ -168,12 +156,12 @@ std::string alarm_table(const HostileSettings& settings, const HostileScenes& st
     }
     table.add(std::move(row));
   }
-  return table.markdown();
+  return table;
 }
 
 /// "glass 0.15 / 3.1" of each compensated condition, above 3 %, over the lights.
-std::string compensated_sentence(const HostileSettings& settings, const HostileScenes& study,
-                                 const std::string& name) {
+std::string compensated_shares(const HostileSettings& settings, const HostileScenes& study,
+                               const std::string& name) {
   std::vector<std::string> texts;
   for (const std::string& condition : compensated_conditions(settings)) {
     std::vector<std::string> shares;
@@ -186,7 +174,7 @@ std::string compensated_sentence(const HostileSettings& settings, const HostileS
 }
 
 /// "poolPointer 99 / 80" of each estimator.
-std::string detected_sentence(const HostileSettings& settings, const HostileScenes& study) {
+std::string detected_shares(const HostileSettings& settings, const HostileScenes& study) {
   std::vector<std::string> texts;
   for (const std::string& name : hostile_estimators(settings)) {
     std::vector<std::string> shares;
@@ -200,15 +188,15 @@ std::string detected_sentence(const HostileSettings& settings, const HostileScen
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-std::string conditions_section(const HostileSettings& settings) {
-  std::string text;
+std::vector<PageData> condition_texts(const HostileSettings& settings) {
+  std::vector<PageData> texts;
   for (const std::string& name : settings.conditions) {
     const auto found = std::ranges::find(conditions(), name, &Condition::name);
     if (found != conditions().end()) {
-      text += fmt::format("* {}: {}.\n", name, found->says);
+      texts.push_back(PageData().set("condition", "{}", name).set("says", "{}", found->says));
     }
   }
-  return text;
+  return texts;
 }
 
 std::string scene_names(const HostileSettings& settings) {
@@ -217,6 +205,27 @@ std::string scene_names(const HostileSettings& settings) {
     names.push_back(scene_name(scene));
   }
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::vector<PageData> pool_readouts(const HostileSettings& settings, const HostileScenes& study) {
+  std::vector<PageData> readouts;
+  for (const ReadoutParameters& readout : settings.readouts) {
+    if (!is_pool_readout(readout.readout)) {
+      continue;
+    }
+    const std::string name(readout_name(readout.readout));
+    std::optional<PageData> with_settings;
+    if (!compensated_conditions(settings).empty()) {
+      with_settings = PageData()
+                          .part("still_behind", where(behind_coarse_histogram(settings, study, name, true)))
+                          .set("shares", "{}", compensated_shares(settings, study, name));
+    }
+    readouts.push_back(PageData()
+                           .set("readout", "{}", hostile_title(name))
+                           .part("behind", where(behind_coarse_histogram(settings, study, name, false)))
+                           .part("with_settings", std::move(with_settings)));
+  }
+  return readouts;
 }
 
 }  // namespace
@@ -254,83 +263,40 @@ std::vector<std::string> fooled_together(const HostileSettings& settings, const 
   return named(settings, lights);
 }
 
-std::string hostile_report(const HostileSettings& settings, const HostileScenes& study,
-                           const std::string& command_line) {
-  std::string report = fmt::format(
-      "# What each read-out survives\n\n"
-      "{} read-outs and two matched filters under {} conditions, sensor `{}`, {:g} klux.\n\n"
-      "* Every read-out has more than 10 % of its pixels off by more than 10 %, the best one's share named, "
-      "under: "
-      "{}.\n",
-      settings.readouts.size(), settings.conditions.size(), settings.sensor.name,
-      fmt::join(settings.klux, " and "), list_or(fooled_together(settings, study), "no condition"));
-  for (const ReadoutParameters& readout : settings.readouts) {
-    if (is_pool_readout(readout.readout)) {
-      const std::string name(readout_name(readout.readout));
-      report += fmt::format(
-          "* {} has more than twice the coarse histogram's errors above 3 %, beyond both intervals, "
-          "under: {}.\n",
-          hostile_title(name),
-          list_or(behind_coarse_histogram(settings, study, name, false), "no condition"));
-      if (!compensated_conditions(settings).empty()) {
-        report += fmt::format(
-            "* With these settings for both, {} has more than twice the coarse histogram's errors under: {}. "
-            "Its pixels above 3 %, in % at {:g} klux: {}.\n",
-            hostile_title(name),
-            list_or(behind_coarse_histogram(settings, study, name, true), "no condition"),
-            fmt::join(settings.klux, " / "), compensated_sentence(settings, study, name));
-      }
-    }
-  }
-  report += fmt::format(
-      "* A threshold that at most {:g} % of a clear sky's pixels pass at each light leads to these shares "
-      "of the pixels with a target, in clear conditions, that pass it and are within 3 %, in % at {:g} klux: "
-      "{}.\n\n",
-      100.0 * settings.false_alarms, fmt::join(settings.klux, " / "), detected_sentence(settings, study));
-  report += "![Detection over false alarms](hostile_scenes.svg)\n";
+PageData hostile_page(const HostileSettings& settings, const HostileScenes& study,
+                      const std::string& command_line) {
+  std::vector<PageData> errors;
+  std::vector<PageData> alarms;
   for (const double klux : settings.klux) {
-    report +=
-        fmt::format("\n## Errors at {:g} klux\n\nPixels with a target above 3 % / above 10 %, in %:\n\n{}",
-                    klux, error_table(settings, study, klux));
-  }
-  report += compensated_section(settings, study) + motion_section(settings, study);
-  for (const double klux : settings.klux) {
-    report += fmt::format(
-        "\n## False alarms and detection at {:g} klux\n\n"
-        "P_fa, share of the pixels without a target whose confidence reaches the threshold, / P_d, share of "
-        "the "
-        "pixels with a target whose confidence reaches it and whose error is at most 3 %, in %:\n\n{}",
-        klux, alarm_table(settings, study, klux));
+    errors.push_back(PageData().set("klux", "{:g}", klux).set("errors", error_table(settings, study, klux)));
+    alarms.push_back(
+        PageData().set("klux", "{:g}", klux).set("alarms_and_detection", alarm_table(settings, study, klux)));
   }
   const HostileCounts& counts = study.cells.begin()->second.begin()->second.front();
-  report += fmt::format(
-      "\n## Conditions\n\n{}\n"
-      "## How it was measured\n\n"
-      "Models, exact photons. Scenes {}: {} rows of the {} columns (an engine of poolPointer) around the "
-      "centre of "
-      "the sensor's pixels. {} seeds from {} on, each with {} pixels with a target and {} without. Each "
-      "estimator has "
-      "one look-up table for each light, of the sensor in clear conditions, and subtracts the known skew; "
-      "nothing "
-      "else is known to it, but where a table says so. No host filter.\n\n"
-      "The threshold of an estimator is the lowest confidence that at most {:g} % of the pixels of frames of "
-      "sky "
-      "alone reach, in clear conditions, at each light; other seeds than those of the tables. The sky is as "
-      "bright as "
-      "a surface of the sensor's reflectivity. It is one number for all lights and conditions.\n\n"
-      "The matched filters keep full histograms and know the pulse, each pixel's background and the signal "
-      "of a target "
-      "at 3 m; the pooled one pools along the column (readout/pooled_matched_filter.hpp). Their confidence "
-      "is eight "
-      "times their score.\n\n"
-      "Intervals (95 %) come from the spread of the seeds, and are at least Wilson's for independent pixels. "
-      "Every "
-      "figure with its interval: [data/hostile_scenes.csv.gz](data/hostile_scenes.csv.gz).\n\n"
-      "Command: `{}`\n",
-      conditions_section(settings), scene_names(settings), settings.rows, engine_columns_judged(),
-      settings.seeds, settings.seed, counts.targets(), counts.count(Outcome::kSky),
-      100.0 * settings.false_alarms, command_line);
-  return report;
+  PageData data;
+  data.set("readouts", "{}", settings.readouts.size())
+      .set("conditions", "{}", settings.conditions.size())
+      .set("sensor", "{}", settings.sensor.name)
+      .set("lights", "{:g}", fmt::join(settings.klux, " and "))
+      .set("each_klux", "{:g}", fmt::join(settings.klux, " / "))
+      .part("fooling", where(fooled_together(settings, study)))
+      .list("pool_readouts", pool_readouts(settings, study))
+      .set("false_alarms", "{:g}", 100.0 * settings.false_alarms)
+      .set("detected", "{}", detected_shares(settings, study))
+      .list("errors_at_lights", std::move(errors))
+      .part("settings_of_a_user", compensated_data(settings, study))
+      .part("motion", motion_data(settings, study))
+      .list("alarms_at_lights", std::move(alarms))
+      .list("condition_texts", condition_texts(settings))
+      .set("scenes", "{}", scene_names(settings))
+      .set("rows", "{}", settings.rows)
+      .set("columns", "{}", engine_columns_judged())
+      .set("seeds", "{}", settings.seeds)
+      .set("seed", "{}", settings.seed)
+      .set("pixels_with_a_target", "{}", counts.targets())
+      .set("pixels_without", "{}", counts.count(Outcome::kSky))
+      .set("command", "{}", command_line);
+  return data;
 }
 
 Table hostile_csv(const HostileSettings& settings, const HostileScenes& study) {

@@ -7,6 +7,7 @@
 #include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
 #include "hostile_scenes/hostile_scenes.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
@@ -20,9 +21,9 @@ std::vector<std::string> behind_coarse_histogram(const HostileSettings& settings
 /// best read-out.
 std::vector<std::string> fooled_together(const HostileSettings& settings, const HostileScenes& study);
 
-/// Report in Markdown, conclusions first.
-std::string hostile_report(const HostileSettings& settings, const HostileScenes& study,
-                           const std::string& command_line);
+/// What hostile_scenes.mustache shows.
+PageData hostile_page(const HostileSettings& settings, const HostileScenes& study,
+                      const std::string& command_line);
 /// All estimators in all conditions, with intervals.
 Table hostile_csv(const HostileSettings& settings, const HostileScenes& study);
 /// Share detected against false alarms, in clear conditions at the brightest light, for every estimator whose

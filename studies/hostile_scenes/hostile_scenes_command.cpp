@@ -60,7 +60,7 @@ void run_hostile_command(HostileOptions options) {
   settings.store =
       folder / ("cells_" + digest(settings, is_file ? read_file(options.sensor) : options.sensor));
   const HostileScenes study = run_hostile_scenes(settings);
-  write_file(folder / "hostile_scenes.md", hostile_report(settings, study, options.command_line));
+  write_page(folder, "hostile_scenes", "hostile_scenes", hostile_page(settings, study, options.command_line));
   create_output_folder(folder / "data");
   write_gzip_file(folder / "data/hostile_scenes.csv.gz", hostile_csv(settings, study).csv());
   const std::vector<PlotSeries> curves = hostile_curves(settings, study);

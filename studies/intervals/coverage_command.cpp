@@ -36,10 +36,11 @@ void run_coverage_command(CoverageOptions options) {
   const auto start = std::chrono::steady_clock::now();
   const CoverageStudy study = run_coverage_study(settings);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const std::string report = coverage_report(settings, study, options.command_line);
-  write_file(folder / (options.name + ".md"), report);
+  const PageData page = coverage_page(settings, study, options.command_line);
+  write_page(folder, options.name, "coverage_study", page);
   write_file(folder / (options.name + ".csv"), coverage_csv(study).csv());
-  fmt::print("{}\n{:.0f} s. The report is {}\n", report, seconds, (folder / (options.name + ".md")).string());
+  fmt::print("{}\n{:.0f} s. The report is {}\n", page_text("coverage_study", page), seconds,
+             (folder / (options.name + ".md")).string());
   if (const std::size_t failures = coverage_failures(study); failures > 0) {
     throw std::runtime_error(fmt::format("{} cells of the coverage study fail", failures));
   }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -77,29 +78,29 @@ std::map<Key, Group> groups(std::span<const CoverageCell> cells, Key (*key)(cons
   return result;
 }
 
-std::string verdict_sentence(const CoverageStudy& study) {
+std::size_t holding_at_once(const CoverageStudy& study, bool by_spread) {
+  return static_cast<std::size_t>(std::ranges::count_if(study.cells, [&](const CoverageCell& cell) {
+    return cell.by_spread == by_spread && cell.verdict == CoverageVerdict::kHolds;
+  }));
+}
+
+/// How many cells hold, and what judged them.
+void set_verdict(PageData& data, const CoverageStudy& study) {
   Group all;
   for (const CoverageCell& cell : study.cells) {
     all.add(cell);
   }
-  std::string text = fmt::format(
-      "**{} of {} cells hold.** {} are judged by the spread: {} of these lie from {:g} to {:g} at once, {} "
-      "when "
-      "drawn again.\n{} are judged by the share of intervals that hold the truth: {} of these hold at once, "
-      "{} when drawn again.",
-      study.cells.size() - static_cast<std::size_t>(all.failed), study.cells.size(), all.by_spread,
-      std::ranges::count_if(
-          study.cells,
-          [](const CoverageCell& c) { return c.by_spread && c.verdict == CoverageVerdict::kHolds; }),
-      kLeastSpreadRatio, kMostSpreadRatio, all.redrawn, all.by_coverage,
-      std::ranges::count_if(
-          study.cells,
-          [](const CoverageCell& c) { return !c.by_spread && c.verdict == CoverageVerdict::kHolds; }),
-      all.redrawn_coverage);
-  return text;
+  data.set("holding", "{}", study.cells.size() - static_cast<std::size_t>(all.failed))
+      .set("cells", "{}", study.cells.size())
+      .set("by_spread", "{}", all.by_spread)
+      .set("spread_at_once", "{}", holding_at_once(study, true))
+      .set("spread_redrawn", "{}", all.redrawn)
+      .set("by_coverage", "{}", all.by_coverage)
+      .set("coverage_at_once", "{}", holding_at_once(study, false))
+      .set("coverage_redrawn", "{}", all.redrawn_coverage);
 }
 
-std::string by_figure(const CoverageSettings& settings, const CoverageStudy& study) {
+Table by_figure(const CoverageSettings& settings, const CoverageStudy& study) {
   using Key = std::pair<std::pair<bool, Figure>, int>;
   const std::map<Key, Group> all = groups<Key>(study.cells, [](const CoverageCell& cell) {
     return Key{{cell.after_table, cell.figure}, cell.frames};
@@ -123,10 +124,10 @@ std::string by_figure(const CoverageSettings& settings, const CoverageStudy& stu
       table.add(row);
     }
   }
-  return table.markdown();
+  return table;
 }
 
-std::string by_readout(const CoverageStudy& study) {
+Table by_readout(const CoverageStudy& study) {
   using Key = std::pair<std::string, std::pair<bool, Figure>>;
   const std::map<Key, Group> all = groups<Key>(study.cells, [](const CoverageCell& cell) {
     return Key{cell.title, {cell.after_table, cell.figure}};
@@ -151,14 +152,15 @@ std::string by_readout(const CoverageStudy& study) {
       table.add(row);
     }
   }
-  return table.markdown();
+  return table;
 }
 
 std::string covered(const RunStatistics& statistics) {
   return fmt::format("{} of {}", statistics.covered, statistics.runs);
 }
 
-std::string exceptions(const CoverageStudy& study) {
+/// The cells that lie outside with the seeds' own runs; nothing if none does.
+std::optional<PageData> outside_data(const CoverageStudy& study) {
   Table table({"read-out", "figure", "klux", "m", "frames", "spread / standard error", "drawn again",
                "intervals that hold the truth", "drawn again", "verdict"},
               2);
@@ -174,12 +176,12 @@ std::string exceptions(const CoverageStudy& study) {
                covered(cell.seen), cell.redrawn ? covered(*cell.redrawn) : "-",
                std::string(verdict_word(cell.verdict))});
   }
-  return table.markdown();
+  return table.cells().size() == 1 ? std::nullopt : std::optional(PageData().set("cells_outside", table));
 }
 
-std::string tables_section(const CoverageSettings& settings, const CoverageStudy& study) {
+std::optional<PageData> other_tables_data(const CoverageSettings& settings, const CoverageStudy& study) {
   if (study.tables.empty()) {
-    return {};
+    return std::nullopt;
   }
   std::vector<std::string> titles;
   for (const TableSpread& spread : study.tables) {
@@ -207,17 +209,16 @@ std::string tables_section(const CoverageSettings& settings, const CoverageStudy
     }
     table.add(row);
   }
-  return fmt::format(
-      "## What another calibration run would change\n\n"
-      "All figures after the table are from calibration run {}: {} frames at every {:g} m. Here the "
-      "tables of {} other runs correct the same frames. The table shows the spread of the figures over "
-      "these tables, in standard errors reported with {} frames. The intervals do not include this "
-      "spread: they are for one calibrated sensor.\n\n{}\n",
-      settings.study.calibration_seed, settings.study.calibration_frames, settings.study.calibration_step_m,
-      settings.other_calibrations, study.tables.front().frames, table.markdown());
+  return PageData()
+      .set("calibration_frames", "{}", settings.study.calibration_frames)
+      .set("calibration_step", "{:g}", settings.study.calibration_step_m)
+      .set("calibrations", "{}", settings.other_calibrations)
+      .set("reported_frames", "{}", study.tables.front().frames)
+      .set("spreads", table);
 }
 
-std::string stopping_section(const CoverageSettings& settings, const CoverageStudy& study) {
+/// Where --precision stops, and the stops that fail.
+void set_stopping(PageData& data, const CoverageSettings& settings, const CoverageStudy& study) {
   Table table({"--precision", "places and read-outs", "seeds", "reached", "mean frames there",
                "relative precision right", "rmse right", "mean of rmse / truth - 1", "fail"});
   Table failures(
@@ -255,16 +256,14 @@ std::string stopping_section(const CoverageSettings& settings, const CoverageStu
                fmt::format("{:+.2f} %", 100.0 * sum.mean_rmse_error / all), fmt::format("{}", failed)});
     all_failed += failed;
   }
-  return fmt::format(
-      "## --precision: is the true error reached where it stops?\n\nThe figures of each seed are "
-      "judged after {}, twice, four times as many frames and so on, up to {}. A run stops when both "
-      "intervals are within the precision, and when the run has ten outliers, or none in so many "
-      "frames that outliers are rarer than {:g} %; the figures are then those without outliers. Right: "
-      "the figure is as near to the truth as requested. A place and read-out fails if its seeds refute "
-      "(at 95 %) that 95 % are right.\n\n{}\n{} of {} fail{}\n\n{}",
-      settings.frames.front(), settings.frames.back(), settings.study.rare_outliers * 100.0, table.markdown(),
-      all_failed, study.stopping.size(), all_failed == 0 ? "." : ":",
-      all_failed == 0 ? std::string() : failures.markdown() + "\n");
+  std::optional<PageData> failing;
+  if (all_failed > 0) {
+    failing = PageData().set("failing", "{}", all_failed).set("failing_stops", failures);
+  }
+  data.set("rare_outliers", "{:g}", settings.study.rare_outliers * 100.0)
+      .set("stopping", table)
+      .set("stops", "{}", study.stopping.size())
+      .part("failures", std::move(failing));
 }
 
 }  // namespace
@@ -276,39 +275,30 @@ std::size_t coverage_failures(const CoverageStudy& study) {
   return static_cast<std::size_t>(cells);
 }
 
-std::string coverage_report(const CoverageSettings& settings, const CoverageStudy& study,
-                            const std::string& command_line) {
-  const auto outside = std::ranges::count_if(
-      study.cells, [](const CoverageCell& cell) { return cell.verdict != CoverageVerdict::kHolds; });
-  return fmt::format(
-             "# Do the intervals hold?\n\n"
-             "Do the 95 % intervals that `dtof-study accuracy` and `dtof-study reproduce` print agree "
-             "with repeated runs? {} seeds from {} on, {} frames each, at {} klux and {} m. All "
-             "read-outs see the same photons. Shorter runs are parts of the long ones ({} runs of {} "
-             "frames). Preset {}, calibration run {}. The truth is the figure over all {} frames.\n\nA "
-             "cell is one figure of one read-out at one place with one number of frames. A cell holds "
-             "if the spread of the figure over runs is {:g} to {:g} times the mean of the reported "
-             "standard errors (about a quarter of the interval's width). {} runs leave this ratio "
-             "uncertain by about {:.0f} %. If their ratio lies outside, {} runs drawn with replacement "
-             "from all frames decide. If a few outliers make the spread (more than half of the runs "
-             "report fewer than ten outliers, but all frames together have some), the spread proves "
-             "nothing. The cell then holds if the share of intervals that hold the truth does not "
-             "refute 95 %. The seeds' runs refute one in 40 of the cells whose intervals are right; "
-             "for these cells, too, the drawn runs decide.\n\n{}\n\n"
-             "Extremes over places and read-outs; in brackets the number of cells:\n\n{}\n"
-             "The same for each read-out, over places and numbers of frames:\n\n{}\n",
-             settings.seeds, settings.study.run.seed, settings.frames.back(), fmt::join(settings.klux, ", "),
-             fmt::join(settings.distances_m, ", "),
-             settings.seeds * (settings.frames.back() / settings.frames.front()), settings.frames.front(),
-             settings.study.sensor.name, settings.study.calibration_seed,
-             settings.seeds * settings.frames.back(), kLeastSpreadRatio, kMostSpreadRatio, settings.seeds,
-             100.0 / std::sqrt(2.0 * (settings.seeds - 1)), kRedrawnRuns, verdict_sentence(study),
-             by_figure(settings, study), by_readout(study)) +
-         (outside == 0
-              ? std::string("No cell lies outside.\n\n")
-              : fmt::format("Cells that lie outside with the seeds' own runs:\n\n{}\n", exceptions(study))) +
-         stopping_section(settings, study) + tables_section(settings, study) +
-         fmt::format("Command: `{}`\n", command_line);
+PageData coverage_page(const CoverageSettings& settings, const CoverageStudy& study,
+                       const std::string& command_line) {
+  PageData data;
+  data.set("seeds", "{}", settings.seeds)
+      .set("first_seed", "{}", settings.study.run.seed)
+      .set("frames", "{}", settings.frames.back())
+      .set("klux", "{}", fmt::join(settings.klux, ", "))
+      .set("distances", "{}", fmt::join(settings.distances_m, ", "))
+      .set("shortest_runs", "{}", settings.seeds * (settings.frames.back() / settings.frames.front()))
+      .set("fewest_frames", "{}", settings.frames.front())
+      .set("sensor", "{}", settings.study.sensor.name)
+      .set("calibration_seed", "{}", settings.study.calibration_seed)
+      .set("all_frames", "{}", settings.seeds * settings.frames.back())
+      .set("least_ratio", "{:g}", kLeastSpreadRatio)
+      .set("most_ratio", "{:g}", kMostSpreadRatio)
+      .set("uncertainty", "{:.0f}", 100.0 / std::sqrt(2.0 * (settings.seeds - 1)))
+      .set("redrawn_runs", "{}", kRedrawnRuns);
+  set_verdict(data, study);
+  data.set("by_figure", by_figure(settings, study))
+      .set("by_readout", by_readout(study))
+      .part("outside", outside_data(study));
+  set_stopping(data, settings, study);
+  data.part("other_tables", other_tables_data(settings, study)).set("command", "{}", command_line);
+  return data;
 }
 
 Table coverage_csv(const CoverageStudy& study) {

@@ -5,12 +5,13 @@
 
 #include "dtof/report/table.hpp"
 #include "intervals/coverage_study.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
-/// Report in Markdown. Every sentence with a result is computed from `study`.
-std::string coverage_report(const CoverageSettings& settings, const CoverageStudy& study,
-                            const std::string& command_line);
+/// What coverage_study.mustache shows.
+PageData coverage_page(const CoverageSettings& settings, const CoverageStudy& study,
+                       const std::string& command_line);
 
 /// All cells of the study.
 Table coverage_csv(const CoverageStudy& study);

@@ -124,17 +124,29 @@ TEST(CoverageReport, SentencesFollowTheFigures) {
   stopping.precision = 0.1;
   stopping.seeds = stopping.reached = stopping.precision_right = stopping.rmse_right = 40;
   study.stopping = {stopping};
-  const std::string good = coverage_report(settings, study, "dtof-study coverage");
+  const auto page = [&] {
+    return page_text("coverage_study", coverage_page(settings, study, "dtof-study coverage"));
+  };
+  const std::string good = page();
   EXPECT_THAT(good, HasSubstr("**10 of 10 cells hold.**"));
   EXPECT_THAT(good, HasSubstr("10 of these lie from 0.8 to 1.25 at once"));
-  EXPECT_THAT(good, HasSubstr("No cell lies outside."));
-  EXPECT_THAT(good, HasSubstr("0 of 1 fail."));
+  EXPECT_THAT(
+      good,
+      HasSubstr("|\n\nNo cell lies outside.\n\n## --precision: is the true error reached where it stops?\n"));
+  EXPECT_THAT(good, HasSubstr("|\n\n0 of 1 fail.\n\nCommand: `dtof-study coverage`\n"));
 
   study.cells[3].seen.spread = 2.5;
   study.cells[3].verdict = CoverageVerdict::kFails;
   study.cells[4].by_spread = false;
   study.stopping[0].rmse_right = 20;
-  const std::string bad = coverage_report(settings, study, "dtof-study coverage");
+  const std::string bad = page();
+  EXPECT_THAT(
+      bad,
+      HasSubstr("**9 of 10 cells hold.** 9 are judged by the spread: 8 of these lie from 0.8 to 1.25 at "
+                "once, 0 when drawn again.\n1 are judged by the share of intervals that hold the truth: 1 "
+                "of these hold at once, 0 when drawn again.\n\nExtremes "));
+  EXPECT_THAT(bad, HasSubstr("|\n\nCells that lie outside with the seeds' own runs:\n\n| read-out "));
+  EXPECT_THAT(bad, HasSubstr("|\n\n1 of 1 fail:\n\n| read-out "));
   EXPECT_THAT(bad, HasSubstr("**9 of 10 cells hold.**"));
   EXPECT_THAT(bad, HasSubstr("8 of these lie from 0.8 to 1.25 at once"));
   EXPECT_THAT(bad, HasSubstr("1 are judged by the share of intervals"));
@@ -142,6 +154,53 @@ TEST(CoverageReport, SentencesFollowTheFigures) {
   EXPECT_THAT(bad, HasSubstr("above 3 % before the table"));
   EXPECT_THAT(bad, HasSubstr("1 of 1 fail:"));
   EXPECT_EQ(coverage_failures(study), 2U);
+}
+
+TEST(CoverageReport, SaysHowItWasMeasured) {
+  CoverageSettings settings = small_coverage_study();
+  settings.study.run.seed = 5;
+  CoverageStudy study;
+  for (const bool after : {false, true}) {
+    for (const Figure figure : kFigures) {
+      for (const int frames : settings.frames) {
+        CoverageCell cell = cell_with(1.01, 38, true, CoverageVerdict::kHolds);
+        cell.figure = figure;
+        cell.after_table = after;
+        cell.frames = frames;
+        study.cells.push_back(cell);
+      }
+    }
+  }
+  TableSpread spread;
+  spread.title = "ezPointer";
+  spread.deviation = 0.5;
+  spread.standard_error = 1.0;
+  spread.frames = 1000;
+  study.tables = {spread};
+  const std::string page = page_text("coverage_study", coverage_page(settings, study, "dtof-study coverage"));
+  EXPECT_THAT(
+      page,
+      HasSubstr("agree with repeated runs? 40 seeds from 5 on, 1000 frames each, at 14 klux and 1 m. All "
+                "read-outs see the same photons. Shorter runs are parts of the long ones (400 runs of 100 "
+                "frames). Preset thesis, calibration run 1. The truth is the figure over all 40000 "
+                "frames.\n\nA cell is one figure of one read-out at one place with one number of frames. A "
+                "cell holds if the spread of the figure over runs is 0.8 to 1.25 times the mean of the "
+                "reported standard errors (about a quarter of the interval's width). 40 runs leave this "
+                "ratio uncertain by about 11 %. If their ratio lies outside, 4000 runs drawn with "
+                "replacement from all frames decide. "));
+  EXPECT_THAT(
+      page,
+      HasSubstr("\n\nThe figures of each seed are judged after 100, twice, four times as many frames and so "
+                "on, up to 1000. A run stops when "));
+  EXPECT_THAT(page, HasSubstr("outliers are rarer than 0.1 %; the figures are then those without outliers."));
+  EXPECT_THAT(
+      page,
+      HasSubstr("\n\n## What another calibration run would change\n\nAll figures after the table are from "
+                "calibration run 1: 60 frames at every 0.05 m. Here the tables of 2 other runs correct "
+                "the same frames. The table shows the spread of the figures over these tables, in "
+                "standard errors reported with 1000 frames. The intervals do not include this spread: "
+                "they are for one calibrated sensor.\n\n| median over places (largest) "));
+  EXPECT_THAT(page, HasSubstr("| 0.50 (0.50) |"));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -41,10 +41,6 @@ std::string with_interval(const Estimate& estimate, double scale, int digits) {
                      estimate.interval.low * scale, digits, estimate.interval.high * scale, digits);
 }
 
-std::string place(const AccuracyPoint& point) {
-  return fmt::format("{} at {:g} m and {:g} klux", point.title, point.distance_m, point.klux);
-}
-
 double rmse_ratio(const AccuracyPoint& clean, const AccuracyPoint& other) {
   return other.rmse_m.value / clean.rmse_m.value;
 }
@@ -61,10 +57,76 @@ std::size_t largest(const SensorAccuracy& clean, const SensorAccuracy& other, Ch
   return best;
 }
 
-std::string count_sentence(const std::string& figure, const IntervalsApart& apart) {
-  return fmt::format("{}: higher in {} of {} comparisons, lower in {}, the intervals touch in {}.", figure,
-                     apart.higher, apart.comparisons, apart.lower,
-                     apart.comparisons - apart.higher - apart.lower);
+PageData comparison(const char* figure, const IntervalsApart& apart) {
+  return PageData()
+      .set("figure", "{}", figure)
+      .set("higher", "{}", apart.higher)
+      .set("comparisons", "{}", apart.comparisons)
+      .set("lower", "{}", apart.lower)
+      .set("touching", "{}", apart.comparisons - apart.higher - apart.lower);
+}
+
+/// A figure at one point, with the clean sensor and with the other.
+PageData change(const AccuracyPoint& clean, const AccuracyPoint& other, Estimate AccuracyPoint::*figure,
+                double scale, int digits) {
+  return PageData()
+      .set("readout", "{}", clean.title)
+      .set("distance", "{:g}", clean.distance_m)
+      .set("klux", "{:g}", clean.klux)
+      .set("clean", "{}", with_interval(clean.*figure, scale, digits))
+      .set("with_sensor", "{}", with_interval(other.*figure, scale, digits));
+}
+
+/// The read-outs with the least and the largest median ratio of the rmse; nothing if there is only one.
+std::optional<PageData> ratios(const SensorAccuracy& clean, const SensorAccuracy& other) {
+  std::vector<std::pair<double, std::string>> ranking;
+  for (const auto& [name, title] : estimators(clean)) {
+    if (name != "matched-filter") {
+      ranking.emplace_back(median_rmse_ratio(clean, other, name), title);
+    }
+  }
+  if (ranking.size() < 2) {
+    return std::nullopt;
+  }
+  std::ranges::sort(ranking);
+  return PageData()
+      .set("least_affected", "{}", ranking.front().second)
+      .set("lowest", "{:.2f}", ranking.front().first)
+      .set("most_affected", "{}", ranking.back().second)
+      .set("highest", "{:.2f}", ranking.back().first);
+}
+
+/// Sets what the sentences on a sensor say: differences beyond the intervals, the largest of them, and the
+/// least and most affected read-outs.
+void set_changes(PageData& data, const SensorAccuracy& clean, const SensorAccuracy& other) {
+  const IntervalsApart rmse = intervals_apart(clean, other, &AccuracyPoint::rmse_m);
+  const IntervalsApart bias = intervals_apart(clean, other, &AccuracyPoint::bias_m);
+  const auto rmse_at = [&](bool shown, auto by) {
+    if (!shown) {
+      return std::optional<PageData>();
+    }
+    const std::size_t i = largest(clean, other, by);
+    const double percent = 100.0 / clean.points[i].distance_m;
+    return std::optional(change(clean.points[i], other.points[i], &AccuracyPoint::rmse_m, percent, 2));
+  };
+  std::optional<PageData> moved_bias;
+  if (bias.higher + bias.lower > 0) {
+    const std::size_t i = largest(clean, other, [](const AccuracyPoint& a, const AccuracyPoint& b) {
+      return std::abs(b.bias_m.value - a.bias_m.value);
+    });
+    moved_bias = change(clean.points[i], other.points[i], &AccuracyPoint::bias_m, 1e3, 1);
+  }
+  data.list("figures",
+            {comparison("Rmse", rmse),
+             comparison("Share above 3 %", intervals_apart(clean, other, &AccuracyPoint::above_3_percent)),
+             comparison("Outliers", intervals_apart(clean, other, &AccuracyPoint::outlier_rate)),
+             comparison("Bias before the table", bias)})
+      .part("rise", rmse_at(rmse.higher > 0, rmse_ratio))
+      .part("fall",
+            rmse_at(rmse.lower > 0, [](const auto& a, const auto& b) { return 1.0 / rmse_ratio(a, b); }))
+      .flag("rmse_unchanged", rmse.higher + rmse.lower == 0)
+      .part("moved_bias", std::move(moved_bias))
+      .part("ratios", ratios(clean, other));
 }
 
 }  // namespace
@@ -177,56 +239,6 @@ Table effect_overview(const SensorAccuracy& clean, std::span<const SensorAccurac
   return table;
 }
 
-std::string effect_sentences(const SensorAccuracy& clean, const SensorAccuracy& other) {
-  const IntervalsApart rmse = intervals_apart(clean, other, &AccuracyPoint::rmse_m);
-  const IntervalsApart bias = intervals_apart(clean, other, &AccuracyPoint::bias_m);
-  std::string text =
-      count_sentence("Rmse", rmse) + '\n' +
-      count_sentence("Share above 3 %", intervals_apart(clean, other, &AccuracyPoint::above_3_percent)) +
-      '\n' + count_sentence("Outliers", intervals_apart(clean, other, &AccuracyPoint::outlier_rate)) + '\n' +
-      count_sentence("Bias before the table", bias) + '\n';
-  if (rmse.higher > 0) {
-    const std::size_t worst = largest(clean, other, rmse_ratio);
-    const AccuracyPoint& before = clean.points[worst];
-    text += fmt::format("The rmse rises most for {}: from {} to {} % of the distance.\n", place(before),
-                        with_interval(before.rmse_m, 100.0 / before.distance_m, 2),
-                        with_interval(other.points[worst].rmse_m, 100.0 / before.distance_m, 2));
-  }
-  if (rmse.lower > 0) {
-    const std::size_t best =
-        largest(clean, other, [](const auto& a, const auto& b) { return 1.0 / rmse_ratio(a, b); });
-    const AccuracyPoint& before = clean.points[best];
-    text += fmt::format("The rmse falls most for {}: from {} to {} % of the distance.\n", place(before),
-                        with_interval(before.rmse_m, 100.0 / before.distance_m, 2),
-                        with_interval(other.points[best].rmse_m, 100.0 / before.distance_m, 2));
-  }
-  if (rmse.higher + rmse.lower == 0) {
-    text += "No read-out's rmse changes beyond the intervals.\n";
-  }
-  if (bias.higher + bias.lower > 0) {
-    const std::size_t moved = largest(clean, other, [](const AccuracyPoint& a, const AccuracyPoint& b) {
-      return std::abs(b.bias_m.value - a.bias_m.value);
-    });
-    text += fmt::format("The bias before the table moves most for {}: from {} to {} mm.\n",
-                        place(clean.points[moved]), with_interval(clean.points[moved].bias_m, 1e3, 1),
-                        with_interval(other.points[moved].bias_m, 1e3, 1));
-  }
-  std::vector<std::pair<double, std::string>> ranking;
-  for (const auto& [name, title] : estimators(clean)) {
-    if (name != "matched-filter") {
-      ranking.emplace_back(median_rmse_ratio(clean, other, name), title);
-    }
-  }
-  std::ranges::sort(ranking);
-  if (ranking.size() > 1) {
-    text += fmt::format(
-        "Median ratio of the rmse to the clean sensor's over distances and lights: lowest for {} ({:.2f}), "
-        "highest for {} ({:.2f}).\n",
-        ranking.front().second, ranking.front().first, ranking.back().second, ranking.back().first);
-  }
-  return text;
-}
-
 Table effect_table(const SensorAccuracy& clean, const SensorAccuracy& other, double klux,
                    Estimate AccuracyPoint::*figure, double scale, bool relative_to_distance) {
   require_same_points(clean, other);
@@ -250,6 +262,34 @@ Table effect_table(const SensorAccuracy& clean, const SensorAccuracy& other, dou
     table.add(std::move(row));
   }
   return table;
+}
+
+PageData sensor_effects_page(const SensorEffects& effects, const std::string& command_line) {
+  const SensorModel& clean = effects.clean.sensor;
+  std::vector<PageData> sensors;
+  for (const SensorAccuracy& other : effects.others) {
+    std::vector<PageData> lights;
+    for (const double klux : effects.klux) {
+      lights.push_back(
+          PageData()
+              .set("light", "{:g}", klux)
+              .set("rmse", effect_table(effects.clean, other, klux, &AccuracyPoint::rmse_m, 100.0, true)));
+    }
+    PageData sensor;
+    sensor.set("sensor", "{}", other.sensor.name)
+        .set("difference", "{}", sensor_difference(clean, other.sensor));
+    set_changes(sensor, effects.clean, other);
+    sensors.push_back(sensor.list("lights", std::move(lights)));
+  }
+  PageData data;
+  data.set("clean_sensor", "{}", clean.name)
+      .set("reflectivity", "{:g}", clean.default_reflectivity)
+      .set("frames", "{}", effects.frames)
+      .set("seed", "{}", effects.seed)
+      .set("overview", effect_overview(effects.clean, effects.others))
+      .list("sensors", std::move(sensors))
+      .set("command", "{}", command_line);
+  return data;
 }
 
 Table effects_csv(const SensorAccuracy& clean, std::span<const SensorAccuracy> others) {

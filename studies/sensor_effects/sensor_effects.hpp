@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "accuracy/accuracy_study.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/report/table.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
@@ -38,13 +40,20 @@ double median_rmse_ratio(const SensorAccuracy& clean, const SensorAccuracy& othe
 /// A row per sensor with median_rmse_ratio of every estimator.
 Table effect_overview(const SensorAccuracy& clean, std::span<const SensorAccuracy> others);
 
-/// Sentences on a sensor, computed from the figures: differences beyond the intervals, the largest of them,
-/// and the least and most affected read-outs.
-std::string effect_sentences(const SensorAccuracy& clean, const SensorAccuracy& other);
-
 /// Table at one light level with a row per read-out and a column per distance: clean and with the sensor.
 Table effect_table(const SensorAccuracy& clean, const SensorAccuracy& other, double klux,
                    Estimate AccuracyPoint::*figure, double scale, bool relative_to_distance);
+
+/// Several sensors beside a clean one, on the same targets.
+struct SensorEffects {
+  SensorAccuracy clean;
+  std::vector<SensorAccuracy> others;
+  std::vector<double> klux;
+  int frames = 0;  ///< at each distance and light
+  std::uint64_t seed = 0;
+};
+/// What sensor_effects.mustache shows.
+PageData sensor_effects_page(const SensorEffects& effects, const std::string& command_line);
 
 /// All figures with their intervals; SI units, shares 0 .. 1.
 Table effects_csv(const SensorAccuracy& clean, std::span<const SensorAccuracy> others);

@@ -68,42 +68,14 @@ void run_sensor_effects_command(const SensorEffectsOptions& options) {
   }
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
-  const SensorAccuracy clean = measure(options, clean_sensor);
-  std::vector<SensorAccuracy> others;
-  others.reserve(sensors.size());
+  SensorEffects effects{measure(options, clean_sensor), {}, options.klux, options.frames, options.run.seed};
   for (const SensorModel& sensor : sensors) {
-    others.push_back(measure(options, sensor));
+    effects.others.push_back(measure(options, sensor));
   }
-  std::string report = fmt::format(
-      "# What effects of real sensors do to the read-outs\n\n"
-      "Each sensor against the clean one, `{}`: flat targets of reflectivity {:g}, {} frames at each "
-      "distance and "
-      "light, seed {}. Every read-out has a look-up table of its own, calibrated with the same sensor at the "
-      "same "
-      "light; pixels share it. Rmse, shares above 3 % and outliers (above 10 %) are those after the table, "
-      "the bias "
-      "is that before it. In brackets: 95 % confidence intervals of independent frames. \"Higher\" and "
-      "\"lower\" "
-      "count intervals that do not touch, which happens by chance to about one comparison in 200.\n\n"
-      "Median over distances and lights of the rmse with the sensor / with the clean one:\n\n{}",
-      clean_sensor.name, clean_sensor.default_reflectivity, options.frames, options.run.seed,
-      effect_overview(clean, others).markdown());
-  for (const SensorAccuracy& other : others) {
-    report += fmt::format("\n## {}\n\nAgainst {}: {}.\n\n{}", other.sensor.name, clean_sensor.name,
-                          sensor_difference(clean_sensor, other.sensor), effect_sentences(clean, other));
-    for (const double klux : options.klux) {
-      report += fmt::format("\nRmse, % of the distance, {:g} klux:\n\n{}", klux,
-                            effect_table(clean, other, klux, &AccuracyPoint::rmse_m, 100.0, true).markdown());
-    }
-  }
-  report += fmt::format("\nAll figures: sensor_effects.csv. Command: `{}`\n", options.command_line);
-  write_file(folder / "sensor_effects.csv", effects_csv(clean, others).csv());
-  write_file(folder / "sensor_effects.md", report);
-  fmt::print("{}\n", effect_overview(clean, others).markdown());
-  for (const SensorAccuracy& other : others) {
-    fmt::print("{}\n{}\n", other.sensor.name, effect_sentences(clean, other));
-  }
-  fmt::print("Tables are in {}\n", options.out);
+  write_file(folder / "sensor_effects.csv", effects_csv(effects.clean, effects.others).csv());
+  write_page(folder, "sensor_effects", "sensor_effects", sensor_effects_page(effects, options.command_line));
+  fmt::print("{}\nThe report is {}\n", effect_overview(effects.clean, effects.others).markdown(),
+             (folder / "sensor_effects.md").string());
 }
 
 }  // namespace

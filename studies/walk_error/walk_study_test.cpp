@@ -6,14 +6,17 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "dtof/core/error.hpp"
 #include "dtof/sensor/preset.hpp"
+#include "walk_error/walk_report.hpp"
 
 namespace dtof {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -98,6 +101,43 @@ TEST(WalkReadout, FiguresByHand) {
   EXPECT_NEAR(readout.walk_after_m(), 0.0495, 1e-12);
   EXPECT_EQ(readout.better(), 1U);  // 30 to 10 mm; 40 to 39.5 is within the intervals
   EXPECT_EQ(readout.worse(), 1U);
+}
+
+TEST(WalkReport, NamesWhatTheCorrectionDoes) {
+  WalkSettings settings = small_walk_study();
+  settings.reflectivities = {0.5, 1.0};
+  settings.distances_m = {2.0};
+  // The walk in m, before and after the correction.
+  const auto readout = [](const char* title, double before, double after, bool judged = true) {
+    const auto errors = [](double bias) {
+      return WalkErrors{{bias, {bias - 0.001, bias + 0.001}}, 0.0, 0.0, 0.0};
+    };
+    return WalkReadout{title,
+                       title,
+                       3,
+                       0.25,
+                       {{0.5, 2.0, 1.0, judged, errors(0.01 + before), errors(0.01 + after)},
+                        {1.0, 2.0, 1.0, judged, errors(0.01), errors(0.01)}}};
+  };
+  const std::string page = page_text(
+      "walk_error", walk_page(settings,
+                              {readout("A", 0.08, 0.03), readout("B", 0.08, 0.05), readout("C", 0.08, 0.09),
+                               readout("D", 0.06, 0.02), readout("E", 0.06, 0.03, false)},
+                              "the command"));
+  EXPECT_THAT(
+      page, HasSubstr("# Walk error\n\nA bright target fills the TDC's 2 slots early (pile-up), so that its "
+                      "pulse seems nearer. Flat targets, 640 pixels at each reflectivity and distance, 14 "
+                      "klux, sensor thesis, 1000 acquisitions, seed 1.\n\n* Before: the look-up table is "
+                      "fitted on flat targets of reflectivity 1 at "));
+  EXPECT_THAT(page,
+              HasSubstr("|\n\n* The walk is at least halved: A (80 to 30 mm), D (60 to 20 mm).\n"
+                        "* It is reduced by less than half: B (80 to 50 mm).\n"
+                        "* It is not reduced: C (80 to 90 mm).\n"
+                        "* It could not be judged: E.\n\n"
+                        "All points with shares of errors: [walk_error.csv](walk_error.csv). Bias in mm, "
+                        "before -> after:\n\n## A\n\n| reflectivity "));
+  EXPECT_THAT(page, HasSubstr("| 90.0 +- 1.0 -> 40.0 +- 1.0 |"));
+  EXPECT_THAT(page, EndsWith("\n\nCommand: `the command`\n"));
 }
 
 TEST(WalkStudy, RefusesWhatMakesNoStudy) {
