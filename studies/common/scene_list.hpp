@@ -51,8 +51,6 @@ struct SceneList {
 /// Least reflectivity in a photographed map, relative to the sensor's default.
 inline constexpr double kDarkestPhotographed = 0.05;
 
-/// True for the flat scenes ("flat 1 m").
-inline bool is_flat(const std::string& scene) { return scene.starts_with("flat "); }
 SceneList make_scenes(const SceneChoice& options, const SensorModel& sensor);
 
 }  // namespace dtof

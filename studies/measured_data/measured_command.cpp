@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -31,6 +29,7 @@
 #include "dtof/recording/recording.hpp"
 #include "dtof/report/colour_png.hpp"
 #include "dtof/report/table.hpp"
+#include "measured_data/measured_report.hpp"
 #include "measured_data/measured_scene.hpp"
 #include "rtl/run_frame.hpp"
 #include "run/readout_run.hpp"
@@ -105,22 +104,11 @@ MeasuredScene open_scene(const MeasuredOptions& options, RecordingFile file) {
     std::ranges::replace_if(
         scene.true_m, [](double metres) { return std::isnan(metres); }, 0.0);
     scene.other_m.clear();
-    scene.truth = fmt::format("The truth is the map {}.", options.truth_file);
+    scene.truth = {.origin = TruthOrigin::kMap, .map = options.truth_file};
   }
   leave_out_beyond_range(scene, options.t_int_ns * 1e-9, options.recording.file);
   return scene;
 }
-
-/// How bright it is: photons per pixel and frame, and what the sun adds.
-struct Light {
-  double photons;
-  double background;
-
-  [[nodiscard]] std::string name() const {
-    return fmt::format("{} photons{}", photons > 0.0 ? fmt::format("{:g}", photons) : "all",
-                       background > 0.0 ? fmt::format(", {:g} background", background) : "");
-  }
-};
 
 bool is_compiled(const ReadoutParameters& parameters, const MeasuredScene& scene) {
   try {
@@ -148,19 +136,6 @@ SceneTruth repeated_truth(const MeasuredScene& scene, std::uint32_t frames) {
   return truth;
 }
 
-struct Outcome {
-  SceneMeasurement measurement;  // offset removed
-  SceneScore score;
-  ErrorSummary errors;
-  double median_error_m;
-  double off_both_surfaces;  // share of pixels more than 3 % off the nearer of the two
-};
-
-struct LightResult {
-  Light light;
-  std::vector<Outcome> readouts;
-};
-
 class MeasuredStudy {
  public:
   MeasuredStudy(const MeasuredOptions& options, MeasuredScene scene)
@@ -179,8 +154,8 @@ class MeasuredStudy {
   [[nodiscard]] const std::vector<double>& offsets_m() const { return offsets_m_; }
 
   /// The first light's median differences to truth are the read-outs' offsets from then on: host calibration.
-  LightResult measure(const Light& light) {
-    LightResult result{light, {}};
+  MeasuredLightResult measure(const MeasuredLight& light) {
+    MeasuredLightResult result{light, {}};
     const bool calibrates = offsets_m_.empty();
     for (std::size_t r = 0; r < readouts_.size(); ++r) {
       SceneMeasurement measurement = read(light, readouts_[r]);
@@ -201,33 +176,26 @@ class MeasuredStudy {
     return result;
   }
 
-  /// One frame through the RTL of what is compiled, each pixel compared with the model. Says what was done.
-  [[nodiscard]] std::string verify_rtl(const Light& light) const {
+  /// One frame through the RTL of what is compiled, each pixel compared with the model.
+  [[nodiscard]] ComparedWithRtl verify_rtl(const MeasuredLight& light) const {
     RunSettings run = options_.run;
     run.engine = "rtl";
     run.verify = true;
-    std::vector<std::string> equal;
-    std::vector<std::string> missing;
+    ComparedWithRtl compared;
     for (std::size_t r = 0; r < readouts_.size(); ++r) {
       if (!is_compiled(readouts_[r], scene_)) {
-        missing.push_back(titles_[r]);
+        compared.not_compiled.push_back(titles_[r]);
         continue;
       }
       (void)run_readout(*scene_.frame(resampling(light, 0)), readouts_[r], run, whole(),
                         options_.command_line);
-      equal.push_back(titles_[r]);
+      compared.equal.push_back(titles_[r]);
     }
-    std::string text =
-        fmt::format("RTL equal to the model in each of {} x {} pixels: {}.", scene_.columns, scene_.rows,
-                    equal.empty() ? "none compiled" : fmt::format("{}", fmt::join(equal, ", ")));
-    if (!missing.empty()) {
-      text += fmt::format(" Not compiled as RTL for {} rows: {}.", scene_.rows, fmt::join(missing, ", "));
-    }
-    return text;
+    return compared;
   }
 
  private:
-  [[nodiscard]] Resampling resampling(const Light& light, std::uint32_t frame) const {
+  [[nodiscard]] Resampling resampling(const MeasuredLight& light, std::uint32_t frame) const {
     Resampling resampling = options_.resampling();
     if (light.photons > 0.0) {
       resampling.photon_budget = light.photons;
@@ -239,7 +207,7 @@ class MeasuredStudy {
 
   [[nodiscard]] Region whole() const { return Region::whole(scene_.columns, scene_.rows); }
 
-  [[nodiscard]] SceneMeasurement read(const Light& light, const ReadoutParameters& readout) const {
+  [[nodiscard]] SceneMeasurement read(const MeasuredLight& light, const ReadoutParameters& readout) const {
     // No pulse width is subtracted: the recording's zero distance is part of the offset.
     const DepthScale scale(options_.t_int_ns * 1e-9, readout.np, 0.0);
     SceneMeasurement measurement;
@@ -255,8 +223,8 @@ class MeasuredStudy {
     return measurement;
   }
 
-  [[nodiscard]] Outcome judge(SceneMeasurement measurement) const {
-    Outcome outcome{{}, score_scene(truth_, measurement), {}, 0.0, 0.0};
+  [[nodiscard]] MeasuredOutcome judge(SceneMeasurement measurement) const {
+    MeasuredOutcome outcome{{}, score_scene(truth_, measurement), {}, 0.0, 0.0};
     ErrorStatistics statistics;
     std::vector<double> errors;
     std::size_t off = 0;
@@ -287,25 +255,9 @@ class MeasuredStudy {
   std::vector<double> offsets_m_;
 };
 
-std::string matrix(const std::string& title, const std::vector<LightResult>& results,
-                   const std::vector<std::string>& titles,
-                   const std::function<std::string(const Outcome&)>& cell) {
-  std::vector<std::string> header = {"light"};
-  header.insert(header.end(), titles.begin(), titles.end());
-  Table table(std::move(header));
-  for (const LightResult& result : results) {
-    std::vector<std::string> row = {result.light.name()};
-    for (const Outcome& outcome : result.readouts) {
-      row.push_back(cell(outcome));
-    }
-    table.add(std::move(row));
-  }
-  return fmt::format("\n{}\n\n{}", title, table.markdown());
-}
-
 /// First frame of each read-out.
 void write_pictures(const std::filesystem::path& folder, const MeasuredScene& scene,
-                    const std::vector<std::string>& titles, const LightResult& result,
+                    const std::vector<std::string>& titles, const MeasuredLightResult& result,
                     const MeasuredOptions& options) {
   const std::size_t pixels = scene.true_m.size();
   const DepthImage empty{scene.columns, scene.rows, {}};
@@ -349,26 +301,15 @@ void write_pictures(const std::filesystem::path& folder, const MeasuredScene& sc
                      .largest_error = 0.25});
 }
 
-std::string percent(double share) { return fmt::format("{:.1f}", share * 100.0); }
-
-void run_measured_command(const MeasuredOptions& options, RecordingFile file) {
-  MeasuredStudy study(options, open_scene(options, std::move(file)));
-  const std::filesystem::path folder(options.out);
-  create_output_folder(folder);
-  std::vector<LightResult> results;
-  for (const double photons : options.photons) {
-    for (const double background : options.background) {
-      results.push_back(study.measure({photons, background}));
-    }
-  }
+Table summary_table(const MeasuredStudy& study, const std::vector<MeasuredLightResult>& results) {
   const std::vector<std::string>& titles = study.titles();
   const bool two_surfaces = !study.scene().other_m.empty();
   Table csv({"photons", "background", "readout", "pixels", "above_3_percent", "above_10_percent",
              "off_both_surfaces", "median_error_mm", "relative_rmse", "outliers_removed_at_5_percent",
              "offset_mm", "rmse_mm", "bias_mm"});
-  for (const LightResult& result : results) {
+  for (const MeasuredLightResult& result : results) {
     for (std::size_t r = 0; r < titles.size(); ++r) {
-      const Outcome& outcome = result.readouts[r];
+      const MeasuredOutcome& outcome = result.readouts[r];
       const double removed = outcome.score.removed[2];
       csv.add({fmt::format("{:g}", result.light.photons), fmt::format("{:g}", result.light.background),
                titles[r], fmt::format("{}", outcome.score.all.pixels),
@@ -383,42 +324,35 @@ void run_measured_command(const MeasuredOptions& options, RecordingFile file) {
                fmt::format("{:.1f}", outcome.errors.bias_m * 1e3)});
     }
   }
-  std::string report = fmt::format(
-      "# {}\n\n{} {} Thinned to the photons named (mean of a pixel and frame) and resampled to {} "
-      "acquisitions "
-      "of "
-      "{:g} ns, {} bits, {} frames of each light; background: events added per acquisition (preset `thesis`: "
-      "0.15 "
-      "at 14 klux, 0.54 at 50). Each read-out's constant offset, its median difference to truth in the first "
-      "light, is "
-      "taken away. Seed {}.\n",
-      study.scene().title, study.scene().description, study.scene().truth, options.acquisitions,
-      options.t_int_ns, study.timestamp_bits(), options.frames, options.run.seed);
-  report +=
-      matrix("Per cent of pixels with an error above 3 % / 10 %:", results, titles, [](const Outcome& o) {
-        return fmt::format("{} / {}", percent(o.score.all.above_3_percent),
-                           percent(o.score.all.above_10_percent));
-      });
-  if (two_surfaces) {
-    report += matrix("Per cent of pixels more than 3 % off both surfaces:", results, titles,
-                     [](const Outcome& o) { return percent(o.off_both_surfaces); });
+  return csv;
+}
+
+void run_measured_command(const MeasuredOptions& options, RecordingFile file) {
+  MeasuredStudy study(options, open_scene(options, std::move(file)));
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+  std::vector<MeasuredLightResult> results;
+  for (const double photons : options.photons) {
+    for (const double background : options.background) {
+      results.push_back(study.measure({photons, background}));
+    }
   }
-  report += matrix("Rmse / bias, mm:", results, titles, [](const Outcome& o) {
-    return fmt::format("{:.0f} / {:.0f}", o.errors.rmse_m * 1e3, o.errors.bias_m * 1e3);
-  });
-  report += matrix("Median error, mm:", results, titles,
-                   [](const Outcome& o) { return fmt::format("{:.0f}", o.median_error_m * 1e3); });
-  report += matrix("Per cent of the outliers (above 10 %) removed by dropping the 5 % of lowest confidence:",
-                   results, titles, [](const Outcome& o) {
-                     return std::isnan(o.score.removed[2]) ? std::string("-") : percent(o.score.removed[2]);
-                   });
-  report +=
-      fmt::format("\n{}\n\nCommand: `{}`\n", study.verify_rtl(results.front().light), options.command_line);
-  write_file(folder / "summary.csv", csv.csv());
+  const std::vector<std::string>& titles = study.titles();
+  const PageData page =
+      measured_page(study.scene(), {.readouts = titles,
+                                    .lights = results,
+                                    .acquisitions = options.acquisitions,
+                                    .t_int_ns = options.t_int_ns,
+                                    .timestamp_bits = study.timestamp_bits(),
+                                    .frames = options.frames,
+                                    .seed = options.run.seed,
+                                    .compared_with_rtl = study.verify_rtl(results.front().light),
+                                    .command_line = options.command_line});
+  write_file(folder / "summary.csv", summary_table(study, results).csv());
   write_file(folder / "truth.csv", truth_csv(study.scene()));
-  write_file(folder / "summary.md", report);
+  write_page(folder, "summary", "measured", page);
   write_pictures(folder, study.scene(), titles, results.back(), options);
-  fmt::print("{}\nTables and maps are in {}\n", report, options.out);
+  fmt::print("{}\nTables and maps are in {}\n", page_text("measured", page), options.out);
 }
 
 }  // namespace

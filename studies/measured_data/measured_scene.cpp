@@ -70,12 +70,9 @@ void find_returns(MeasuredScene& scene, const RecordedSceneOptions& options, dou
                      "fullest {:g} ns of each (--return-window); --truth gives distances",
                      count, window_s * 1e9));
   }
-  scene.truth = fmt::format(
-      "Truth: the strongest return of each pixel, the mean time of the photons in the {:g} ns that hold the "
-      "most of all "
-      "of its photons.{}",
-      window_s * 1e9,
-      without == 0 ? "" : fmt::format(" Pixels left out because they have no return: {}.", without));
+  scene.truth.origin = TruthOrigin::kStrongestReturn;
+  scene.truth.window_s = window_s;
+  scene.truth.without_return = without;
 }
 
 /// True distances of the recording, those of pixels without photons left out; empty if it has none.
@@ -140,12 +137,6 @@ MeasuredScene photon_times_scene(PhotonTimes photons, const RecordedSceneOptions
   return scene;
 }
 
-/// What becomes of a log of a TMF8829 (recording/tmf8829_json.hpp).
-constexpr const char* kTmf8829Note =
-    " If the log has histograms of the sensor's row 0 only, as the published one has, each frame is a column "
-    "here "
-    "and the zones of row 0 are its rows: read-outs that pool pixels need neighbours in a column.";
-
 }  // namespace
 
 MeasuredScene recorded_scene(const RecordedSceneOptions& options, RecordingFile file) {
@@ -167,16 +158,15 @@ MeasuredScene recorded_scene(const RecordedSceneOptions& options, RecordingFile 
          "a TDC stream is one frame as it was recorded, from which no others can be drawn; dtof "
          "replay reads it out");
   }
-  if (scene.truth.empty()) {
+  if (scene.truth.origin == TruthOrigin::kUnknown) {
     if (options.return_window_s) {
       throw InputError("--return-window has no effect: the recording has true distances");
     }
-    scene.truth = is_plane ? "Truth: the known distance of the plane in each capture."
-                           : "Truth: the distance that the sensor itself reported.";
+    scene.truth.origin = is_plane ? TruthOrigin::kPlane : TruthOrigin::kSensor;
   }
   scene.title = "Recording: " + recorded.description.substr(0, recorded.description.find(','));
-  scene.description = fmt::format("Recording ({}) of {} x {} pixels.{}", recorded.description, scene.columns,
-                                  scene.rows, is_tmf8829 ? kTmf8829Note : "");
+  scene.contents = recorded.description;
+  scene.is_tmf8829 = is_tmf8829;
   return scene;
 }
 
@@ -194,10 +184,8 @@ void leave_out_beyond_range(MeasuredScene& scene, double integration_time, const
                                   "back in {:g} ns): --t-int changes it",
                                   name, range_m, integration_time * 1e9));
   }
-  if (beyond != 0) {
-    scene.truth +=
-        fmt::format(" Pixels left out because they are beyond the range, {:.2f} m: {}.", range_m, beyond);
-  }
+  scene.truth.range_m = range_m;
+  scene.truth.beyond_range = beyond;
 }
 
 std::string truth_csv(const MeasuredScene& scene) {
@@ -245,17 +233,11 @@ MeasuredScene two_surfaces_scene(TwoSurfaces recording) {
       scene.other_m.push_back(known && std::isfinite(other) ? other : scene.true_m.back());
     }
   }
-  const double mean =
+  scene.mean_photons =
       static_cast<double>(photons.ticks.size()) / static_cast<double>(std::max<std::size_t>(1, count));
+  scene.from_tick = recording.from_tick;
   scene.title = recording.from_tick > 0.0 ? "Photon times, the surface behind" : "Photon times, two surfaces";
-  scene.description =
-      fmt::format("Photon arrival times, {} x {} pixels, {:.1f} photons per pixel in the mean{}.",
-                  scene.columns, scene.rows, mean,
-                  recording.from_tick > 0.0
-                      ? fmt::format(" after tick {:g}; earlier ones are left out", recording.from_tick)
-                      : "");
-  scene.truth =
-      "Truth: the surface, as estimated from all photons, that more of the pixel's photons come from.";
+  scene.truth.origin = TruthOrigin::kSurface;
   scene.frame = [photons, tick_s = recording.tick_s,
                  shift_s = recording.shift_s](Resampling resampling) -> std::unique_ptr<StreamSource> {
     resampling.time_shift = shift_s;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -15,11 +17,36 @@
 
 namespace dtof {
 
+/// Where true distances come from.
+enum class TruthOrigin : std::uint8_t {
+  kUnknown,
+  kStrongestReturn,  ///< of each pixel
+  kPlane,            ///< known in each capture
+  kSensor,           ///< reported by the sensor itself
+  kSurface,          ///< that more of the pixel's photons come from
+  kMap               ///< a file that the user names
+};
+
+/// What a report says about the true distances.
+struct MeasuredTruth {
+  TruthOrigin origin = TruthOrigin::kUnknown;
+  double window_s = 0.0;           ///< of the strongest return
+  std::size_t without_return = 0;  ///< pixels left out
+  std::string map = {};            ///< name of its file
+  double range_m = 0.0;
+  std::size_t beyond_range = 0;  ///< pixels left out
+
+  bool operator==(const MeasuredTruth&) const = default;
+};
+
 /// A recording with known distances of its pixels, from which frames are drawn.
 struct MeasuredScene {
   std::string title;
-  std::string description;  ///< sentences for a report: the contents
-  std::string truth;        ///< sentence for a report: origin of the true distances
+  std::string contents;       ///< of a recording; empty: photon times with surfaces
+  bool is_tmf8829 = false;    ///< a log in which frames become columns
+  double mean_photons = 0.0;  ///< of a pixel with surfaces
+  double from_tick = 0.0;     ///< above 0: earlier photons are left out
+  MeasuredTruth truth;
   int columns = 0;
   int rows = 0;
   /// True distance in m, index = row * columns + column; 0: unknown, not judged.
@@ -53,7 +80,7 @@ struct RecordedSceneOptions {
 /// return.
 MeasuredScene recorded_scene(const RecordedSceneOptions& options, RecordingFile file);
 
-/// Leaves out pixels whose light returns after `integration_time` (s), and says so in `truth`. Throws
+/// Leaves out pixels whose light returns after `integration_time` (s), and counts them in `truth`. Throws
 /// InputError "<name>: <reason>" if no pixel with a known distance is left.
 void leave_out_beyond_range(MeasuredScene& scene, double integration_time, const std::string& name);
 

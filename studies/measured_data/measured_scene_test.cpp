@@ -104,10 +104,9 @@ TEST(RecordedScene, WithoutDistancesTheStrongestReturnIsTheTruth) {
   EXPECT_THAT(scene.true_m,
               ElementsAre(DoubleNear(11.0 * kMetresPerNs, 1e-9), 0.0, DoubleNear(26.0 * kMetresPerNs, 1e-9)));
   EXPECT_EQ(scene.title, "Recording: histogram cube");
+  EXPECT_EQ(scene.contents.find("histogram cube"), 0U);
   EXPECT_EQ(scene.truth,
-            "Truth: the strongest return of each pixel, the mean time of the photons in the 2 ns that hold "
-            "the most of "
-            "all of its photons. Pixels left out because they have no return: 1.");
+            (MeasuredTruth{.origin = TruthOrigin::kStrongestReturn, .window_s = 2e-9, .without_return = 1}));
   const MeasuredScene shifted = scene_of({peak_at(10, 30.0)}, {.recording = {}, .shift_s = 5e-9});
   EXPECT_THAT(shifted.true_m, ElementsAre(DoubleNear(16.0 * kMetresPerNs, 1e-9)));
   Resampling resampling;
@@ -150,7 +149,8 @@ TEST(RecordedScene, PixelsBeyondTheRangeAreLeftOut) {
   scene.other_m = {2.5, 3.5};
   leave_out_beyond_range(scene, 30e-9, "mine.npy");
   EXPECT_THAT(scene.true_m, ElementsAre(DoubleNear(11.0 * kMetresPerNs, 1e-9), 0.0));
-  EXPECT_TRUE(scene.truth.ends_with(" Pixels left out because they are beyond the range, 4.50 m: 1."));
+  EXPECT_NEAR(scene.truth.range_m, 30.0 * kMetresPerNs, 1e-9);
+  EXPECT_EQ(scene.truth.beyond_range, 1U);
   EXPECT_EQ(truth_csv(scene), "column,row,true_m,other_m\n0,0,1.648859,2.500000\n1,0,,\n");
   EXPECT_THAT([&] { leave_out_beyond_range(scene, 10e-9, "mine.npy"); },
               ThrowsMessage<InputError>(
@@ -190,7 +190,7 @@ TEST(RecordedScene, DistancesOfTheRecordingAreTheTruthOfPixelsWithPhotons) {
   EXPECT_EQ(scene.columns, 3);
   EXPECT_EQ(scene.rows, 9);
   EXPECT_EQ(scene.title, "Recording: ams TMF8820");
-  EXPECT_EQ(scene.truth, "Truth: the known distance of the plane in each capture.");
+  EXPECT_EQ(scene.truth.origin, TruthOrigin::kPlane);
   EXPECT_THAT(std::vector(scene.true_m.begin() + 24, scene.true_m.end()), ElementsAre(0.25, 0.0, 0.0));
 }
 

@@ -44,10 +44,10 @@ void run_fidelity_command(const FidelityOptions& options) {
   create_output_folder(options.out);
   const FidelityStudy study = run_fidelity_study(settings);
   const std::filesystem::path folder(options.out);
-  const std::string report = fidelity_report(study, settings, options.command_line);
+  const PageData page = fidelity_page(study, settings, options.command_line);
   write_file(folder / "fidelity.csv", fidelity_csv(study));
-  write_file(folder / "fidelity.md", report);
-  fmt::print("{}\nWritten to {}\n", report, (folder / "fidelity.md").string());
+  write_page(folder, "fidelity", "fidelity", page);
+  fmt::print("{}\nWritten to {}\n", page_text("fidelity", page), (folder / "fidelity.md").string());
 }
 
 }  // namespace

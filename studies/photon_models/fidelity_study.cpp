@@ -2,6 +2,7 @@
 #include "photon_models/fidelity_study.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <ctime>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -177,7 +179,8 @@ ReadoutSummary summarise(const FidelityStudy& study, Readout readout) {
   return summary;
 }
 
-std::string readout_section(const FidelityStudy& study, const FidelitySettings& settings) {
+/// The read-outs' table, and what the sentences below it say.
+void add_readouts(const FidelityStudy& study, const FidelitySettings& settings, PageData& data) {
   Table table({"read-out", "largest difference, %", "limit that auto uses, %", "limit holds",
                "exact stream, CPU ms", "fast sampler, CPU ms", "fast / exact", "auto reckons with"});
   std::size_t holding = 0;
@@ -196,20 +199,24 @@ std::string readout_section(const FidelityStudy& study, const FidelitySettings& 
                fmt::format("{:.2f}", summary.fast_ms / summary.exact_ms),
                fmt::format("{:.2f}", fast_sampler_cost(readout))});
   }
-  const std::size_t readouts = settings.readouts.size();
-  return fmt::format(
-      "{}\nThe limits of `--fidelity auto` hold for {} of {} read-outs. The fast sampler costs less than the "
-      "exact streams for {} of {} read-outs, and the order that `auto` assumes is right for {}. The streams "
-      "of a frame took {:.0f} ms with the exact model and {:.0f} ms with the fast one. For streams the {} "
-      "model is therefore the cheaper one, and the exact streams of `auto` cost {} than the fast ones.\n",
-      table.markdown(), holding, readouts, cheaper, readouts, as_reckoned, study.streams.exact_ms,
-      study.streams.fast_ms, study.streams.exact_ms <= study.streams.fast_ms ? "exact" : "fast",
-      study.streams.exact_ms <= study.streams.fast_ms
-          ? "less"
-          : fmt::format("{:.0f} % more", 100.0 * (study.streams.exact_ms / study.streams.fast_ms - 1.0)));
+  const bool fast_streams = study.streams.fast_ms < study.streams.exact_ms;
+  std::optional<PageData> cheaper_fast_streams;
+  if (fast_streams) {
+    cheaper_fast_streams = PageData().set("percent_more", "{:.0f}",
+                                          100.0 * (study.streams.exact_ms / study.streams.fast_ms - 1.0));
+  }
+  data.set("differences_of_readouts", table)
+      .set("limits_that_hold", "{}", holding)
+      .set("readouts", "{}", settings.readouts.size())
+      .set("cheaper_samplers", "{}", cheaper)
+      .set("as_assumed", "{}", as_reckoned)
+      .set("exact_stream_ms", "{:.0f}", study.streams.exact_ms)
+      .set("fast_stream_ms", "{:.0f}", study.streams.fast_ms)
+      .part("cheaper_fast_streams", std::move(cheaper_fast_streams));
 }
 
-std::string promise_section(const FidelityStudy& study) {
+/// What auto takes at each tolerance.
+void add_promises(const FidelityStudy& study, PageData& data) {
   Table table(
       {"tolerance", "exact", "fast", "CPU ms a frame", "all exact, CPU ms", "kept", "open", "broken"});
   std::size_t broken = 0;
@@ -234,25 +241,17 @@ std::string promise_section(const FidelityStudy& study) {
                fmt::format("{:.0f}", exact_cost / cells), fmt::format("{}", promises[0]),
                fmt::format("{}", promises[1]), fmt::format("{}", promises[2])});
   }
-  return fmt::format(
-      "## What auto takes, and whether it keeps its promise\n\nNumber of the {} scenes, lights and read-outs "
-      "for "
-      "which `--fidelity auto` takes each model; kept: the 95 % intervals of all four differences lie within "
-      "the "
-      "tolerance, broken: one lies outside by more than three standard errors.\n\n{}\n{}\n",
-      study.cells.size(), table.markdown(),
-      broken == 0 ? "No promise was broken." : fmt::format("**{} promises were broken.**", broken));
+  std::optional<PageData> some_broken;
+  if (broken > 0) {
+    some_broken = PageData().set("promises", "{}", broken);
+  }
+  data.set("cells", "{}", study.cells.size())
+      .set("what_auto_takes", table)
+      .part("broken", std::move(some_broken));
 }
 
-std::string scene_section(const FidelityStudy& study, const FidelitySettings& settings) {
-  std::string text =
-      "## Differences by scene\n\nFast sampler less exact model, in percentage points, with "
-      "standard errors; auto: the model that it takes at tolerances ";
-  for (const double tolerance : kTolerances) {
-    text += fmt::format("{}{:g}", tolerance == kTolerances.front() ? "" : ", ", tolerance);
-  }
+void add_scenes(const FidelityStudy& study, const FidelitySettings& settings, PageData& data) {
   const double middle = settings.klux[settings.klux.size() / 2];
-  text += fmt::format(" (e exact, f fast). At {:g} klux; the other lights are in the CSV.\n\n", middle);
   Table table({"scene", "read-out", "auto", "rmse", "bias", "above 3 %", "above 10 %", "exact, CPU ms",
                "fast, CPU ms"},
               3);
@@ -272,7 +271,9 @@ std::string scene_section(const FidelityStudy& study, const FidelitySettings& se
     row.push_back(fmt::format("{:.0f}", cell.fast_ms));
     table.add(row);
   }
-  return text + table.markdown();
+  data.set("tolerances", "{:g}", fmt::join(kTolerances, ", "))
+      .set("middle_klux", "{:g}", middle)
+      .set("differences_of_scenes", table);
 }
 
 void validate(const FidelitySettings& settings) {
@@ -370,24 +371,21 @@ FidelityStudy run_fidelity_study(const FidelitySettings& settings) {
   return study;
 }
 
-std::string fidelity_report(const FidelityStudy& study, const FidelitySettings& settings,
-                            const std::string& command) {
+PageData fidelity_page(const FidelityStudy& study, const FidelitySettings& settings,
+                       const std::string& command) {
   const TargetMap& first = settings.scenes.front().second;
-  return fmt::format(
-      "# What the fast photon model changes of what a user sees\n\n"
-      "Figures of a scene with the fast model's sampler against those with the exact model: root mean square "
-      "and "
-      "mean of the relative error, share of pixels off by more than 3 % and by more than 10 %, before any "
-      "look-up "
-      "table; {} scenes of {} x {} pixels in {} lights, {} frames each, seed {}. A difference has a 95 % "
-      "interval "
-      "from the spread over columns, and the largest difference is the largest end of any of them. "
-      "`--fidelity auto --tolerance t` takes the fast model where that is at most t and the exact one "
-      "elsewhere; "
-      "times are processor time of this run. Command: `{}`\n\n{}\n{}\n{}",
-      settings.scenes.size(), first.columns(), first.rows(), settings.klux.size(), settings.frames,
-      settings.seed, command, readout_section(study, settings), promise_section(study),
-      scene_section(study, settings));
+  PageData data;
+  data.set("scenes", "{}", settings.scenes.size())
+      .set("columns", "{}", first.columns())
+      .set("rows", "{}", first.rows())
+      .set("lights", "{}", settings.klux.size())
+      .set("frames", "{}", settings.frames)
+      .set("seed", "{}", settings.seed)
+      .set("command", "{}", command);
+  add_readouts(study, settings, data);
+  add_promises(study, data);
+  add_scenes(study, settings, data);
+  return data;
 }
 
 std::string fidelity_csv(const FidelityStudy& study) {

@@ -13,6 +13,7 @@
 #include "dtof/core/parameters.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/photon/target_map.hpp"
+#include "page/page.hpp"
 
 namespace dtof {
 
@@ -95,9 +96,9 @@ struct FidelityStudy {
 /// settings.
 FidelityStudy run_fidelity_study(const FidelitySettings& settings);
 
-/// Report; every statement is computed from the study. `command`: the command line.
-std::string fidelity_report(const FidelityStudy& study, const FidelitySettings& settings,
-                            const std::string& command);
+/// Data of the page fidelity.mustache; every statement follows from the study. `command`: the command line.
+PageData fidelity_page(const FidelityStudy& study, const FidelitySettings& settings,
+                       const std::string& command);
 
 /// A row per cell and tolerance: the choice of `--fidelity auto`, its cost, and the measured differences.
 std::string fidelity_csv(const FidelityStudy& study);

@@ -34,6 +34,7 @@
 #include "dtof/sensor/default_parameters.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "photon_models/speed_error_curves.hpp"
+#include "photon_models/speed_error_report.hpp"
 
 namespace dtof {
 namespace {
@@ -356,29 +357,8 @@ class SpeedErrorReport {
             .fast_sampler_ms = verdicts_[2].seconds * 1e3};
   }
 
-  static Table curve_table(const std::vector<ErrorCurve>& curves) {
-    std::vector<std::string> head = {"frames"};
-    for (const ErrorCurve& curve : curves) {
-      head.insert(head.end(), {curve.model + ", CPU ms", "error, %"});
-    }
-    Table table(head);
-    const std::vector<int>& frames = curves.front().frames;
-    for (std::size_t n = 0; n < frames.size(); ++n) {
-      std::vector<std::string> row = {fmt::format("{}", frames[n])};
-      for (const ErrorCurve& curve : curves) {
-        // The analytic model's one point holds for any number.
-        const std::size_t point = std::min(n, curve.cpu_ms.size() - 1);
-        row.insert(row.end(), {fmt::format("{:.3g}", curve.cpu_ms[point]),
-                               fmt::format("{:.3g}", curve.error_percent[point])});
-      }
-      table.add(row);
-    }
-    return table;
-  }
-
-  void write() const {
-    create_output_folder(options_.out);
-    const std::filesystem::path folder(options_.out);
+  /// Time, largest changes and p-values of each model.
+  [[nodiscard]] Table model_table() const {
     const auto percent = [](double share) { return fmt::format("{:.3f}", share * 100.0); };
     const auto p_value = [](double p) { return std::isnan(p) ? std::string("-") : fmt::format("{:.1e}", p); };
     Table table({"model", "frame, CPU ms", "frame, wall ms", "times exact", "1,000 frames, CPU ms", "bias, %",
@@ -392,6 +372,12 @@ class SpeedErrorReport {
                  percent(verdict.precision), percent(verdict.outliers), p_value(verdict.codes_p),
                  p_value(verdict.numbers_p), p_value(verdict.results_p)});
     }
+    return table;
+  }
+
+  void write() const {
+    create_output_folder(options_.out);
+    const std::filesystem::path folder(options_.out);
     write_file(folder / "speed_error.csv", points_.csv());
     const ErrorCurveSettings curve_settings;
     const std::vector<ErrorCurve> curves =
@@ -410,45 +396,23 @@ class SpeedErrorReport {
                 .y_label = "rms error of bias and relative precision, % of the distance",
                 .logarithmic_y = true,
                 .logarithmic_x = true});
-    const auto points = kKlux.size() * kDistances.size();
-    const std::string text = fmt::format(
-        "# Speed against error of the photon models\n\n"
-        "Preset {}, seed {}, {} frames a point; {} scenes (2, 14 and 50 klux; 0.5 to 5 m), read-outs "
-        "ezPointer, hisPointer, SiFH, FiFH and three steps. Command: `{}`\n\n{}\n"
-        "![speed against error](speed_error.svg)\n\n{}\n"
-        "* **picture and table above**: what the statistics of so many frames cost (photons and hisPointer, "
-        "CPU "
-        "ms) and how far they are from the truth (rms error of bias and relative precision in % of the "
-        "distance; 14 klux, 0.5, 1, 2 and 3 m, five read-outs; truth: {} other frames of the exact model). "
-        "Noise falls with the root of the frames, a model's own error stays. The analytic model draws no "
-        "frames: one point.\n"
-        "* **frame**: photons and hisPointer read-out of 200 x 160 pixels, {} acquisitions, a plane from 0.8 "
-        "to 5 m at 14 klux ({:.1f} million detections exact), {} threads; CPU time adds the threads up, and "
-        "wall time includes what other programs took. **1,000 frames**: the same for one pixel at 3 m, which "
-        "is a point of a distance sweep; there the analytic model computes the distribution of the results "
-        "(`code_distribution`) instead of drawing frames.\n"
-        "* **bias, precision, outliers**: the largest change against the exact model over all scenes and "
-        "read-outs, before the look-up table, in % of the distance (outliers: percentage points of the rate "
-        "of errors above 10 %). The first row compares the exact model with itself, drawn with other random "
-        "numbers: a difference that is not larger than in this row is no error of a model. All points are in "
-        "speed_error.csv.\n"
-        "* **p**: the smallest p-value of chi-square tests against the exact model's detections by code "
-        "(times, "
-        "{} tests), detections per pixel (numbers, {}) and results by code (results, {}). With {} tests of a "
-        "right model the smallest is below {:.0e} once in a hundred reports.\n"
-        "What `--fidelity auto` takes, and why, is in [fidelity.md](fidelity.md).\n\n"
-        "Which one, by the figures above:\n\n{}\n"
-        "Only the exact model has dead time, binning and coincidence. The analytic model's histogram "
-        "read-outs "
-        "take counts of different bins as independent and its pointers the slots of an acquisition.\n",
-        sensor_.name, options_.run.seed, options_.frames, points, options_.command_line, table.markdown(),
-        curve_table(curves).markdown(), curve_settings.reference_frames, sensor_.acquisitions,
-        static_cast<double>(detections_) * 1e-6,
-        options_.run.threads == 0 ? hardware_threads() : options_.run.threads, points, points,
-        points * kReadouts.size(), points * kReadouts.size(),
-        0.01 / static_cast<double>(points * kReadouts.size()), advice(costs(), curves));
-    write_file(folder / "speed_error.md", text);
-    fmt::print("{}\nSeed {}. Written to {}\n", table.markdown(), options_.run.seed,
+    const Table models = model_table();
+    write_page(
+        folder, "speed_error", "speed_error",
+        speed_error_page({.sensor = sensor_.name,
+                          .seed = options_.run.seed,
+                          .frames = options_.frames,
+                          .scenes = kKlux.size() * kDistances.size(),
+                          .readouts = kReadouts.size(),
+                          .acquisitions = sensor_.acquisitions,
+                          .detections = detections_,
+                          .threads = options_.run.threads == 0 ? hardware_threads() : options_.run.threads,
+                          .models = models,
+                          .costs = costs(),
+                          .curves = curves,
+                          .reference_frames = curve_settings.reference_frames,
+                          .command_line = options_.command_line}));
+    fmt::print("{}\nSeed {}. Written to {}\n", models.markdown(), options_.run.seed,
                (folder / "speed_error.md").string());
   }
 

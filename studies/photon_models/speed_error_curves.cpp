@@ -10,7 +10,6 @@
 #include <ctime>
 #include <functional>
 #include <limits>
-#include <string_view>
 
 #include "dtof/analytic/code_distribution.hpp"
 #include "dtof/core/error.hpp"
@@ -215,39 +214,6 @@ double cost_to_reach(const ErrorCurve& curve, double error_percent) {
     return curve.cpu_ms[i - 1] * std::pow(curve.cpu_ms[i] / curve.cpu_ms[i - 1], part);
   }
   return std::nan("");
-}
-
-std::string advice(const ModelCosts& costs, const std::vector<ErrorCurve>& curves) {
-  const bool exact_streams = costs.exact_stream_ms <= costs.fast_stream_ms;
-  const bool exact_read = costs.exact_stream_ms <= costs.fast_sampler_ms;
-  std::string text = fmt::format(
-      "* **a stream** (RTL, recording, several read-outs of the same photons): {}, {:.0f} ms a frame against "
-      "{:.0f} ms with the {} one;\n"
-      "* **one read-out model of a frame**: {}, {:.0f} ms against {:.0f} ms with {};\n"
-      "* **a sweep**, by the error of its points that is asked for:",
-      exact_streams ? "the exact model" : "the fast model's stream",
-      std::min(costs.exact_stream_ms, costs.fast_stream_ms),
-      std::max(costs.exact_stream_ms, costs.fast_stream_ms), exact_streams ? "fast" : "exact",
-      exact_read ? "the exact model" : "the fast model's sampler",
-      std::min(costs.exact_stream_ms, costs.fast_sampler_ms),
-      std::max(costs.exact_stream_ms, costs.fast_sampler_ms),
-      exact_read ? "the fast model's sampler" : "the exact model");
-  for (const double error : {1.0, 0.3, 0.1, 0.03}) {
-    const ErrorCurve* cheapest = nullptr;
-    double cost = std::numeric_limits<double>::infinity();
-    for (const ErrorCurve& curve : curves) {
-      const double own = cost_to_reach(curve, error);  // not a number is never less
-      if (own < cost) {
-        cost = own;
-        cheapest = &curve;
-      }
-    }
-    const std::string_view separator = error == 1.0 ? "" : ";";
-    text += cheapest != nullptr
-                ? fmt::format("{} {:g} %: {} ({:.3g} ms)", separator, error, cheapest->model, cost)
-                : fmt::format("{} {:g} %: none of these runs", separator, error);
-  }
-  return text + ".\n";
 }
 
 }  // namespace dtof

@@ -43,19 +43,8 @@ struct ErrorCurveSettings {
 std::vector<ErrorCurve> speed_error_curves(const SensorModel& sensor, const ErrorCurveSettings& settings,
                                            std::uint64_t seed, int threads);
 
-/// CPU ms of a frame by photon model, photons and one read-out included.
-struct ModelCosts {
-  double exact_stream_ms = 0.0;
-  double fast_stream_ms = 0.0;
-  double fast_sampler_ms = 0.0;
-};
-
 /// CPU ms at which a curve reaches `error_percent`, interpolated on logarithmic scales; NaN if it never does.
 double cost_to_reach(const ErrorCurve& curve, double error_percent);
-
-/// Advice in three lines, a Markdown list: the cheapest model for a stream, for a sampler, and for a sweep
-/// with several errors. Each line is computed from the figures.
-std::string advice(const ModelCosts& costs, const std::vector<ErrorCurve>& curves);
 
 /// Figures from a set of frames of one pixel.
 struct ErrorAnswer {

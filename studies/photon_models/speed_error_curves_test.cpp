@@ -231,21 +231,5 @@ TEST(ErrorCurve, CostOfAnErrorBetweenThePoints) {
   EXPECT_TRUE(std::isnan(cost_to_reach(curve, 0.05)));
 }
 
-TEST(Advice, FollowsTheFigures) {
-  using testing::HasSubstr;
-  const ErrorCurve analytic{.model = "analytic", .frames = {}, .cpu_ms = {40.0}, .error_percent = {0.2}};
-  const std::string one = advice({.exact_stream_ms = 700, .fast_stream_ms = 800, .fast_sampler_ms = 300},
-                                 {falling("exact", 5.0), analytic});
-  EXPECT_THAT(one, HasSubstr("the exact model, 700 ms a frame against 800 ms"));
-  EXPECT_THAT(one, HasSubstr("the fast model's sampler, 300 ms against 700 ms"));
-  EXPECT_THAT(one, HasSubstr("1 %: exact (5 ms); 0.3 %: analytic (40 ms); 0.1 %: exact (500 ms)"));
-  EXPECT_THAT(one, HasSubstr("0.03 %: none of these runs"));
-  const std::string other = advice({.exact_stream_ms = 200, .fast_stream_ms = 100, .fast_sampler_ms = 300},
-                                   {falling("exact", 5.0), falling("fast sampler", 2.0)});
-  EXPECT_THAT(other, HasSubstr("the fast model's stream, 100 ms a frame against 200 ms"));
-  EXPECT_THAT(other, HasSubstr("**: the exact model, 200 ms against 300 ms"));
-  EXPECT_THAT(other, HasSubstr("1 %: fast sampler (2 ms)"));
-}
-
 }  // namespace
 }  // namespace dtof

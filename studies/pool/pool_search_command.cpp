@@ -19,6 +19,7 @@
 #include "dtof/io/output_folder.hpp"
 #include "dtof/report/table.hpp"
 #include "dtof/sensor/preset.hpp"
+#include "pool/pool_report.hpp"
 #include "pool/pool_search.hpp"
 
 namespace dtof {
@@ -190,21 +191,13 @@ void run_search(const SearchOptions& options) {
   const int engine_columns = search.best().engine_columns;
   search.run(training_frames(options, sensor, engine_columns), options);
   write_file(folder / "pool_search.csv", search.table().csv());
-  write_file(
-      folder / "pool_search.md",
-      fmt::format(
-          "# Search for poolPointer's numbers\n\nOne number at a time, kept if the objective falls: the "
-          "geometric mean over scenes, lights and four figures (pixels above 3 % without and with S1, above "
-          "10 %, and depth edges above 3 % with S1, each in per cent, + {}). Change: against the design "
-          "before. Training scenes: {} with shapes and photons of seeds from {} on{}; {} columns of each. "
-          "The "
-          "scenes of `dtof-study pool` and `scenes` have other shapes, other photons and another map.\n\n"
-          "Command: `{}`\n\n{}",
-          kLeastShare, fmt::join(options.scenes, ", "), kTrainingSeed,
-          options.disparity_file.empty()
-              ? ""
-              : ", and " + std::filesystem::path(options.disparity_file).filename().string(),
-          search.best().engine_columns, options.command_line, search.table().markdown()));
+  write_page(folder, "pool_search", "pool_search",
+             pool_search_page({.scenes = options.scenes,
+                               .map = std::filesystem::path(options.disparity_file).filename().string(),
+                               .seed = kTrainingSeed,
+                               .engine_columns = search.best().engine_columns,
+                               .designs = search.table(),
+                               .command_line = options.command_line}));
   fmt::print("Tables are in {}\n", options.out);
 }
 

@@ -27,16 +27,16 @@ void run_reproduce_command(const ReproduceOptions& options) {
   const std::filesystem::path pictures = folder / "reproduction";
   create_output_folder(pictures);
   const auto start = std::chrono::steady_clock::now();
-  const ReproductionReport report = render_reproduction(measure_reproduction(options.settings));
+  const ReproductionReport report =
+      render_reproduction(measure_reproduction(options.settings), options.command_line);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (const ReproductionPicture& picture : report.pictures) {
     write_plot(pictures / picture.name, picture.series, picture.layout);
   }
   write_file(pictures / "accuracy.csv", report.accuracy_csv);
   write_file(folder / "reproduction.csv", report.statements_csv);
-  write_file(folder / "reproduction.md",
-             report.front_page + report.sections + fmt::format("\nCommand: `{}`\n", options.command_line));
-  fmt::print("{}\n{:.0f} s. The report is {}\n", report.front_page, seconds,
+  write_page(folder, "reproduction", "reproduction", report.page);
+  fmt::print("{}\n{:.0f} s. The report is {}\n", front_page(report), seconds,
              (folder / "reproduction.md").string());
 }
 

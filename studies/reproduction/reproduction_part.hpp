@@ -46,10 +46,11 @@ inline PlotSeries bins_of(const std::string& label, const std::vector<double>& v
   }
   return series;
 }
-/// Sections and pictures of a part of the report.
+/// A part of the report: adds values to the page, and pictures.
 class ReproductionPart {
  public:
-  explicit ReproductionPart(const Reproduction& reproduction) : r_(reproduction) {}
+  ReproductionPart(const Reproduction& reproduction, ReproductionReport& report)
+      : r_(reproduction), report_(report) {}
 
  protected:
   /// Scene and light, for the titles of pictures.
@@ -58,18 +59,21 @@ class ReproductionPart {
                        distance_m ? fmt::format(" at {:g} m", *distance_m) : "", klux, r_.sensor.name);
   }
 
-  void picture(const std::string& name, std::vector<PlotSeries> series, const PlotLayout& layout) {
-    text_ += fmt::format("![{}](reproduction/{})\n\n", layout.title, name);
-    report_.pictures.push_back({name, std::move(series), layout});
+  [[nodiscard]] PageData& page() { return report_.page; }
+
+  /// A picture in the folder `reproduction`; `title`, its title's name in the page's data.
+  void picture(const std::string& title, const std::string& file, std::vector<PlotSeries> series,
+               const PlotLayout& layout) {
+    page().set(title, "{}", layout.title);
+    report_.pictures.push_back({file, std::move(series), layout});
   }
 
   const Reproduction& r_;
-  ReproductionReport report_;
-  std::string text_;
+  ReproductionReport& report_;
 };
 
-/// The sections behind those of the thesis's own figures: other assumptions, light, hidden errors and future
-/// work. The result has only sections and pictures.
-ReproductionReport render_variations(const Reproduction& reproduction);
+/// Adds what stands behind the sections of the thesis's own figures: other assumptions, light, hidden errors
+/// and future work.
+void add_variations(const Reproduction& reproduction, ReproductionReport& report);
 
 }  // namespace dtof

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dtof/report/plot.hpp"
+#include "page/page.hpp"
 #include "reproduction/reproduction.hpp"
 
 namespace dtof {
@@ -16,14 +17,16 @@ struct ReproductionPicture {
 };
 
 struct ReproductionReport {
-  std::string front_page;  ///< statements and verdicts
-  std::string sections;    ///< Markdown; pictures are in the folder `reproduction`
+  PageData page;  ///< of reproduction.mustache; pictures are in the folder `reproduction`
   std::string statements_csv;
   std::string accuracy_csv;
   std::vector<ReproductionPicture> pictures;
 };
 
-/// Renders the report. Every sentence with a result is computed from `reproduction`.
-ReproductionReport render_reproduction(const Reproduction& reproduction);
+/// The report. Every sentence with a result follows from `reproduction`.
+ReproductionReport render_reproduction(const Reproduction& reproduction, const std::string& command_line);
+
+/// Statements and verdicts: what the page has before its first section.
+std::string front_page(const ReproductionReport& report);
 
 }  // namespace dtof

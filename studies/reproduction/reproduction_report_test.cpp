@@ -16,6 +16,7 @@ namespace dtof {
 namespace {
 
 using testing::HasSubstr;
+using testing::StartsWith;
 
 AccuracyPoint measured_point(Readout readout, double klux, double distance_m, double precision) {
   AccuracyPoint p{};
@@ -120,8 +121,7 @@ Reproduction figures() {
 }
 
 std::string text_of(const Reproduction& r) {
-  const ReproductionReport report = render_reproduction(r);
-  return report.front_page + report.sections;
+  return page_text("reproduction", render_reproduction(r, "the command").page);
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -130,7 +130,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 // README's words on pile-up are read from this file by the statement's name.
 TEST(ReproductionReport, StatementsAreQuotedOnceInTheCsv) {
-  const std::string csv = render_reproduction(figures()).statements_csv;
+  const std::string csv = render_reproduction(figures(), "").statements_csv;
   EXPECT_THAT(csv, HasSubstr("\nFig. 2.4,\"pile-up takes counts and narrows the pulse, at 0.2 m more than"));
   EXPECT_THAT(csv, testing::Not(HasSubstr("\"\"\"")));
 }
@@ -223,9 +223,109 @@ TEST(ReproductionReport, CountsItsVerdicts) {
     ++counts[static_cast<std::size_t>(statement.judgement.verdict)];
     EXPECT_FALSE(statement.rule.empty()) << statement.text;
   }
-  EXPECT_THAT(render_reproduction(r).front_page,
+  EXPECT_THAT(front_page(render_reproduction(r, "")),
               HasSubstr("**" + std::to_string(counts[0]) + " statements agree, " + std::to_string(counts[1]) +
                         " do not, " + std::to_string(counts[2]) + " stay open.**"));
+}
+
+TEST(ReproductionReport, TheFrontPageSaysHowItWasMeasured) {
+  EXPECT_THAT(front_page(render_reproduction(figures(), "")), StartsWith(R"(# Reproduction of the thesis
+
+Accuracy statements of the thesis against this project's models: preset thesis (0.3 / R^2 signal events per pulse, 0.15 background events at 14 klux, 3333 acquisitions), 1000 frames per point, seed 1, look-up tables of calibration run 1. Relative precision is the thesis's own measure (Eq. 3.14).
+
+"Agrees" is computed by the rule beside it: yes and no mean that the 95 % intervals of all figures concerned lie wholly on the right side, or one wholly on the wrong side, of the limit; open that an interval holds it (then 10000 frames are judged where they were run). Intervals allow for outliers that were not seen, up to the sensor's range, where one to nine were seen; where none was, in so many frames that they are rarer than 0.1 %, verdicts are about results without them ([docs/reference/accuracy.md](../docs/reference/accuracy.md)). An asterisk marks figures with fewer than ten outliers.
+
+**)"));
+}
+
+// What the page of figures() has between its tables.
+constexpr std::array kWords = {
+    R"(
+Every figure with its interval: [accuracy.csv](reproduction/accuracy.csv).
+
+## Linearity (Fig. 3.16)
+)",
+    R"(
+## Binning, time gating, coincidence at 50 klux and 3 m
+
+Relative precision / rmse without table / share of errors above 10 %, all in %; 4000 frames:
+
+|)",
+    R"(
+A pixel has 0.54 background events per acquisition, four binned ones have 2.14; the TDC has 2 slots.
+
+## Other readings
+
+Narrower or wider ranges, plots with fewer points, judged by the same sweeps: 6 agree, 4 do not, 3 stay open.
+
+|)",
+    R"(
+## Other assumptions
+
+One change each, at 1000 frames (a tenth for 33,333 acquisitions):
+
+|)",
+    R"(
+Most statements agree (6 of 15) with: preset, four slots; 6 with the preset.
+
+Relative precision at the nearest distance under the same assumptions:
+
+|)",
+    R"(
+ezPointer's is below that of the preset (intervals apart) with: four slots; above with: none.
+
+A pointer at rest still steps by a bin per photon. Its spread at the nearest targets (limit at 0.2 m: 10 %) with other steps:
+
+|)",
+    R"(
+* step of 2 bins: 1.50 times the spread of the thesis's step at 0.2 m
+
+Both rates together, statements that agree / disagree / stay open:
+
+|)",
+    R"(
+## How much light each read-out stands
+
+4000 frames per point.
+)",
+    R"(
+One miss by half the distance in 4000 frames makes 0.8 % of relative precision by itself, in 1,000 frames 1.6 %.
+
+## What relative precision hides
+
+Eq. 3.14 is a spread: it does not show a mean that is off.
+)",
+    R"(
+ezPointer at 50 klux. At 2 of 2 distances its relative precision is at most 3 % while its rmse is above (m: 3, 5).
+
+|)",
+    R"(
+ezPointer's bias at 5 m: -1.67 m with 3333 acquisitions, -0.02 m with 33333 acquisitions.
+)",
+    R"(
+Fewer sensors share the laser, so each gets 32,000 / sensors times the signal; the background stays. Limits: 10 % below 1 m, 3 % from 1 to 3 m, at 0.2, 0.3, 0.5, 0.8, 1, 1.5, 2, 2.5 and 3 m, judged by the figures without their intervals. 2 array sizes from 3200 to 32000 sensors.
+
+|)",
+    R"(
+## Future work: read-outs on small arrays at 50 klux
+
+3200 sensors, relative precision, %:
+
+|)",
+    R"(
+3200 sensors, rmse after the look-up table, % of distance:
+
+|)",
+    R"(
+
+Command: `the command`
+)"};
+
+TEST(ReproductionReport, WordsBetweenTheTables) {
+  const std::string page = text_of(figures());
+  for (const char* const words : kWords) {
+    EXPECT_TRUE(contains(page, words)) << words;
+  }
 }
 
 TEST(ReproductionReport, MoreFramesDecideWhatIsOpen) {
@@ -239,10 +339,11 @@ TEST(ReproductionReport, MoreFramesDecideWhatIsOpen) {
 }
 
 TEST(ReproductionReport, EveryPictureIsShown) {
-  const ReproductionReport report = render_reproduction(figures());
+  const ReproductionReport report = render_reproduction(figures(), "");
+  const std::string page = page_text("reproduction", report.page);
   EXPECT_GT(report.pictures.size(), 15U);
   for (const ReproductionPicture& picture : report.pictures) {
-    EXPECT_THAT(report.sections, HasSubstr("(reproduction/" + picture.name + ")"));
+    EXPECT_THAT(page, HasSubstr("![" + picture.layout.title + "](reproduction/" + picture.name + ")"));
   }
   for (const char* name :
        {"figure_3_6.svg", "figure_3_9.svg", "figure_3_11.svg", "figure_3_13.svg", "figure_3_15.svg"}) {

@@ -15,7 +15,7 @@ class Variations : public ReproductionPart {
  public:
   using ReproductionPart::ReproductionPart;
 
-  ReproductionReport run() {
+  void run() {
     assumptions();
     steps();
     rates();
@@ -23,8 +23,6 @@ class Variations : public ReproductionPart {
     hidden();
     pulses();
     arrays();
-    report_.sections = std::move(text_);
-    return std::move(report_);
   }
 
  private:
@@ -71,16 +69,16 @@ class Variations : public ReproductionPart {
         higher.push_back(assumption.name);
       }
     }
-    text_ += fmt::format(
-        "## Other assumptions\n\nOne change each, at {} frames (a tenth for 33,333 "
-        "acquisitions):\n\n{}\n{}\n\n"
-        "Relative precision at the nearest distance under the same assumptions:\n\n{}\n"
-        "ezPointer's is below that of the {} (intervals apart) with: {}; above with: {}.\n\n",
-        r_.settings.frames, table.markdown(), most_agreeing(), near_target.markdown(),
-        r_.assumptions.front().name, names_or_none(lower), names_or_none(higher));
+    page()
+        .set("verdicts_of_assumptions", table)
+        .set("precision_near_the_target", near_target)
+        .set("preset", "{}", r_.assumptions.front().name)
+        .set("lower_with", "{}", names_or_none(lower))
+        .set("higher_with", "{}", names_or_none(higher));
+    most_agreeing();
   }
 
-  [[nodiscard]] std::string most_agreeing() const {
+  void most_agreeing() {
     int most = -1;
     std::vector<std::string> with;
     for (const auto& assumption : r_.assumptions) {
@@ -93,9 +91,11 @@ class Variations : public ReproductionPart {
         with.push_back(assumption.name);
       }
     }
-    return fmt::format("Most statements agree ({} of {}) with: {}; {} with the {}.", most,
-                       precision_statements().size(), fmt::join(with, ", "),
-                       count_verdicts(r_.assumptions.front().measured)[0], r_.assumptions.front().name);
+    page()
+        .set("most_that_agree", "{}", most)
+        .set("precision_statements", "{}", precision_statements().size())
+        .set("most_agree_with", "{}", fmt::join(with, ", "))
+        .set("agree_with_the_preset", "{}", count_verdicts(r_.assumptions.front().measured)[0]);
   }
 
   // Where the pointers' spread at 0.2 m comes from: the step, or the photons.
@@ -106,7 +106,7 @@ class Variations : public ReproductionPart {
       header.push_back(fmt::format("{:g} m", point.distance_m));
     }
     Table table(header);
-    std::string sentences;
+    std::vector<PageData> others;
     for (const auto& [name, study] : r_.steps) {
       std::vector<std::string> row = {name};
       for (const AccuracyPoint& point : study.points) {
@@ -114,18 +114,18 @@ class Variations : public ReproductionPart {
       }
       table.add(row);
       if (&study != &r_.steps.front().measured) {
-        sentences += fmt::format(
-            "* {}: {:.2f} times the spread of the thesis's step at {:g} m\n", name,
-            study.points.front().relative_precision.value / thesis.front().relative_precision.value,
-            thesis.front().distance_m);
+        others.push_back(PageData()
+                             .set("step", "{}", name)
+                             .set("times_the_spread", "{:.2f}",
+                                  study.points.front().relative_precision.value /
+                                      thesis.front().relative_precision.value));
       }
     }
-    text_ += fmt::format(
-        "A pointer at rest still steps by a bin per photon. Its spread at the nearest targets (limit at {:g} "
-        "m: "
-        "{:g} %) with other steps:\n\n{}\n{}\n",
-        thesis.front().distance_m, customer_limit(thesis.front().distance_m) * 100.0, table.markdown(),
-        sentences);
+    page()
+        .set("nearest_m", "{:g}", thesis.front().distance_m)
+        .set("limit_percent", "{:g}", customer_limit(thesis.front().distance_m) * 100.0)
+        .set("precision_of_steps", table)
+        .list("other_steps", std::move(others));
   }
 
   // Number of statements that agree over signal and background.
@@ -146,8 +146,7 @@ class Variations : public ReproductionPart {
       row.insert(row.end(), cells.begin(), cells.end());
       table.add(row);
     }
-    text_ +=
-        "Both rates together, statements that agree / disagree / stay open:\n\n" + table.markdown() + "\n";
+    page().set("verdicts_of_rates", table);
   }
 
   // Up to which background each read-out holds 3 %.
@@ -174,9 +173,7 @@ class Variations : public ReproductionPart {
         }
       }
     }
-    text_ +=
-        fmt::format("## How much light each read-out stands\n\n{} frames per point.\n\n", r_.light_frames);
-    picture("tolerance_3m.svg", series,
+    picture("tolerance_3m_title", "tolerance_3m.svg", series,
             {.title = "Relative precision in % over background light: flat target at 3 m, sensor " +
                       r_.sensor.name,
              .x_label = "klux",
@@ -196,24 +193,23 @@ class Variations : public ReproductionPart {
       }
       table.add(row);
     }
-    text_ += table.markdown() +
-             fmt::format(
-                 "\nOne miss by half the distance in {} frames makes {:.1f} % of relative precision by "
-                 "itself, in 1,000 frames {:.1f} %.\n\n",
-                 r_.light_frames, 100.0 * 0.5 / std::sqrt(r_.light_frames), 100.0 * 0.5 / std::sqrt(1000.0));
+    page()
+        .set("light_frames", "{}", r_.light_frames)
+        .set("lowest_klux", table)
+        .set("percent_of_one_miss", "{:.1f}", 100.0 * 0.5 / std::sqrt(r_.light_frames))
+        .set("percent_of_one_miss_in_1000", "{:.1f}", 100.0 * 0.5 / std::sqrt(1000.0));
   }
 
   void hidden() {
-    text_ +=
-        "## What relative precision hides\n\nEq. 3.14 is a spread: it does not show a mean that is off.\n\n";
     const AccuracyStudy& indoors = r_.convergence.front();
     const std::string light = flat(indoors.points.front().klux);
-    picture("convergence.svg",
+    picture("convergence_title", "convergence.svg",
             accuracy_series(indoors.points, [](const auto& p) { return p.distance_m + p.bias_m.value; }),
             {.title = "Mean measured distance in m before the look-up table: " + light,
              .x_label = "distance, m",
              .y_label = "mean measured distance, m"});
-    picture("slope.svg", accuracy_series(indoors.points, [](const auto& p) { return p.slope->value; }),
+    picture("slope_title", "slope.svg",
+            accuracy_series(indoors.points, [](const auto& p) { return p.slope->value; }),
             {.title = "Slope of measured over true distance: " + light,
              .x_label = "distance, m",
              .y_label = "slope",
@@ -227,18 +223,20 @@ class Variations : public ReproductionPart {
              indoors.points, [](const auto& p) { return p.rmse_m.value / p.distance_m * 100.0; })) {
       both.push_back({series.label + ": rmse", series.x, series.y});
     }
-    picture("hidden.svg", both,
+    picture("hidden_title", "hidden.svg", both,
             {.title = "Relative precision and rmse after the look-up table in %: " + light,
              .x_label = "distance, m",
              .y_label = "%",
              .logarithmic_y = true,
              .y_limits = {3.0}});
+    std::vector<PageData> lights;
     for (const AccuracyStudy& study : r_.convergence) {
-      hidden_table(study);
+      lights.push_back(hidden_errors(study));
     }
+    page().list("hidden_errors", std::move(lights));
   }
 
-  void hidden_table(const AccuracyStudy& study) {
+  static PageData hidden_errors(const AccuracyStudy& study) {
     constexpr double kLimit = 0.03;
     Table table(
         {"distance m", "relative precision %", "bias mm", "slope", "rmse after table, %", "above 10 %, %"});
@@ -256,11 +254,13 @@ class Variations : public ReproductionPart {
         hides.push_back(fmt::format("{:g}", point.distance_m));
       }
     }
-    text_ += fmt::format(
-        "ezPointer at {:g} klux. At {} of {} distances its relative precision is at most 3 % while its rmse "
-        "is "
-        "above (m: {}).\n\n{}\n",
-        study.points.front().klux, hides.size(), judged, names_or_none(hides), table.markdown());
+    PageData data;
+    data.set("klux", "{:g}", study.points.front().klux)
+        .set("hidden_at", "{}", hides.size())
+        .set("distances", "{}", judged)
+        .set("hidden_at_m", "{}", names_or_none(hides))
+        .set("figures", table);
+    return data;
   }
 
   // With more pulses, does the same pointer arrive?
@@ -275,16 +275,17 @@ class Variations : public ReproductionPart {
         series[i].y.push_back(pulses.study.points[i].bias_m.value);
       }
     }
-    const auto bias = [](const Reproduction::Pulses& pulses) {
-      return fmt::format("{:.2f} m with {} acquisitions", pulses.study.points.back().bias_m.value,
-                         pulses.acquisitions);
-    };
     const auto usual =
         std::ranges::find(r_.pulses, r_.sensor.acquisitions, &Reproduction::Pulses::acquisitions);
-    text_ += fmt::format("ezPointer's bias at {:g} m: {}, {}.\n\n",
-                         r_.pulses.front().study.points.back().distance_m,
-                         bias(usual == r_.pulses.end() ? r_.pulses.front() : *usual), bias(r_.pulses.back()));
-    picture("pulses.svg", series,
+    const Reproduction::Pulses& few = usual == r_.pulses.end() ? r_.pulses.front() : *usual;
+    const Reproduction::Pulses& most = r_.pulses.back();
+    page()
+        .set("farthest_m", "{:g}", r_.pulses.front().study.points.back().distance_m)
+        .set("usual_bias_m", "{:.2f}", few.study.points.back().bias_m.value)
+        .set("usual_acquisitions", "{}", few.acquisitions)
+        .set("bias_with_most_m", "{:.2f}", most.study.points.back().bias_m.value)
+        .set("most_acquisitions", "{}", most.acquisitions);
+    picture("pulses_title", "pulses.svg", series,
             {.title = "ezPointer's bias in m over the frame's pulses: " + flat(14.0),
              .x_label = "acquisitions per frame",
              .y_label = "bias, m",
@@ -312,39 +313,37 @@ class Variations : public ReproductionPart {
         line.y.push_back(margin.by_rmse);
       }
     }
-    text_ += fmt::format(
-        "## Future work: the largest array at 50 klux\n\n"
-        "Fewer sensors share the laser, so each gets 32,000 / sensors times the signal; the background "
-        "stays. "
-        "Limits: 10 % below 1 m, 3 % from 1 to 3 m, at 0.2, 0.3, 0.5, 0.8, 1, 1.5, 2, 2.5 and 3 m, judged by "
-        "the figures without their intervals. {} array sizes from {:g} to {:g} sensors.\n\n{}\n",
-        sizes, r_.array_sizes.back(), r_.array_sizes.front(), table.markdown());
-    picture("array_size.svg", series,
+    page()
+        .set("array_sizes", "{}", sizes)
+        .set("least_sensors", "{:g}", r_.array_sizes.back())
+        .set("most_sensors", "{:g}", r_.array_sizes.front())
+        .set("largest_arrays", table);
+    picture("array_size_title", "array_size.svg", series,
             {.title = "Worst rmse / limit: flat target at 0.2 to 3 m, 50 klux, sensor " + r_.sensor.name,
              .x_label = "sensors that share the laser",
              .y_label = "rmse after the look-up table / limit",
              .logarithmic_y = true,
              .y_limits = {1.0},
              .logarithmic_x = true});
-    text_ +=
-        "## Future work: a small array, enlarged by learning\n\n"
-        "Whether a small array's map, enlarged to 200 x 160 pixels by a trained network, comes up to the "
-        "large "
-        "array's at equal laser power: [enlarge.md](enlarge.md).\n\n";
-    text_ += "## Future work: read-outs on small arrays at 50 klux\n\n";
+    small_arrays();
+  }
+
+  void small_arrays() {
+    std::vector<PageData> arrays;
     for (const auto& [name, study] : r_.small_arrays) {
-      text_ += fmt::format(
-          "{}, relative precision, %:\n\n{}\n{}, rmse after the look-up table, % of distance:\n\n{}\n", name,
-          accuracy_matrix(study.points, precision_cell).markdown(), name,
-          accuracy_matrix(study.points, rmse_cell).markdown());
+      arrays.push_back(PageData()
+                           .set("array", "{}", name)
+                           .set("precision", accuracy_matrix(study.points, precision_cell))
+                           .set("rmse", accuracy_matrix(study.points, rmse_cell)));
     }
+    page().list("small_arrays", std::move(arrays));
   }
 };
 
 }  // namespace
 
-ReproductionReport render_variations(const Reproduction& reproduction) {
-  return Variations(reproduction).run();
+void add_variations(const Reproduction& reproduction, ReproductionReport& report) {
+  Variations(reproduction, report).run();
 }
 
 }  // namespace dtof

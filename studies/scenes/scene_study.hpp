@@ -26,6 +26,9 @@ struct StudyScene {
       {};  ///< [row][column]: true if the map has no distance, not judged; empty: all are known
 };
 
+/// True for the flat scenes ("flat 1 m").
+inline bool is_flat(const std::string& scene) { return scene.starts_with("flat "); }
+
 /// Map column of the `index`-th column read.
 int picked_column(const StudyScene& scene, int index);
 

@@ -3,11 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -33,6 +31,7 @@
 #include "dtof/scene/scene.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "scenes/scene_study.hpp"
+#include "scenes/scenes_report.hpp"
 
 namespace dtof {
 namespace {
@@ -49,42 +48,6 @@ struct ScenesOptions : SceneChoice {
   std::string out = "build/scenes";
   std::string command_line;
 };
-
-struct EstimatorResult {
-  SceneScore score;
-  double error_over_bound;
-};
-
-struct SceneResult {
-  std::string scene;
-  std::vector<EstimatorResult> estimators;
-};
-
-constexpr const char* kNoFigure = "-";
-
-/// Scenes down, estimators across; scenes without a figure are left out.
-Table matrix(const std::vector<SceneResult>& results, const std::vector<std::string>& estimators,
-             const std::function<std::string(const EstimatorResult&)>& cell) {
-  std::vector<std::string> header = {"scene"};
-  header.insert(header.end(), estimators.begin(), estimators.end());
-  Table table(std::move(header));
-  for (const SceneResult& result : results) {
-    std::vector<std::string> row = {result.scene};
-    for (const EstimatorResult& estimator : result.estimators) {
-      row.push_back(cell(estimator));
-    }
-    if (std::any_of(row.begin() + 1, row.end(), [](const std::string& text) { return text != kNoFigure; })) {
-      table.add(std::move(row));
-    }
-  }
-  return table;
-}
-
-std::string share_pair(const ErrorShares& shares) {
-  return shares.pixels == 0 ? kNoFigure
-                            : fmt::format("{:.2f} / {:.2f}", shares.above_3_percent * 100.0,
-                                          shares.above_10_percent * 100.0);
-}
 
 void write_error_maps(const std::filesystem::path& path, const std::string& title, const SceneTruth& truth,
                       const std::vector<std::string>& estimators,
@@ -128,10 +91,6 @@ PlotSeries confidence_curve(const std::vector<SceneResult>& results, std::size_t
   return series;
 }
 
-bool shows_pooled_gain(const std::string& scene) {
-  return is_flat(scene) || scene == "planes" || scene == "held planes";
-}
-
 double root_mean_square(const std::vector<double>& values) {
   double sum = 0.0;
   std::size_t count = 0;
@@ -142,37 +101,6 @@ double root_mean_square(const std::vector<double>& values) {
     }
   }
   return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
-}
-
-/// hisPointer beside poolPointer on flats and on slanted planes: a pool of pixels must not need a flat
-/// wall.
-std::string gain_by_pooling(const std::vector<SceneResult>& results,
-                            const std::vector<std::string>& estimators) {
-  const auto alone = std::ranges::find(estimators, readout_title(Readout::kHisPointer)) - estimators.begin();
-  const auto pooled =
-      std::ranges::find(estimators, readout_title(Readout::kPoolPointer)) - estimators.begin();
-  const auto count = static_cast<std::ptrdiff_t>(estimators.size());
-  if (alone == count || pooled == count) {
-    return "";
-  }
-  Table table({"scene", "above 3 %, hisPointer / poolPointer", "above 10 %", "rmse",
-               "median error over bound: hisPointer", "poolPointer"});
-  const auto ratio = [](double a, double b, double least) {
-    return b > 0.0 ? fmt::format("{:.1f}", a / b) : a > 0.0 ? fmt::format(">{:.0f}", a / least) : kNoFigure;
-  };
-  for (const SceneResult& result : results) {
-    if (!shows_pooled_gain(result.scene)) {
-      continue;
-    }
-    const EstimatorResult& a = result.estimators[static_cast<std::size_t>(alone)];
-    const EstimatorResult& b = result.estimators[static_cast<std::size_t>(pooled)];
-    const double one_pixel = 1.0 / static_cast<double>(std::max<std::uint64_t>(1, a.score.all.pixels));
-    table.add({result.scene, ratio(a.score.all.above_3_percent, b.score.all.above_3_percent, one_pixel),
-               ratio(a.score.all.above_10_percent, b.score.all.above_10_percent, one_pixel),
-               ratio(a.score.all.rmse, b.score.all.rmse, one_pixel),
-               fmt::format("{:.2f}", a.error_over_bound), fmt::format("{:.2f}", b.error_over_bound)});
-  }
-  return fmt::format("\n### Gain by pooling, flats and slanted planes\n\n{}", table.markdown());
 }
 
 std::string file_name(std::string text) {
@@ -249,7 +177,7 @@ struct ScenesRun {
   TableRule rule;
   std::filesystem::path folder;
   Table csv;
-  std::string report;
+  ScenesResults results;
 };
 
 /// Measures all scenes at one light: error maps, rows of the CSV file, and the results by scene.
@@ -281,38 +209,6 @@ std::vector<SceneResult> measure_scenes(ScenesRun& run, const SceneStudy& study,
   return results;
 }
 
-/// The sections of one light. Prints the first table.
-std::string light_sections(const ScenesRun& run, const std::vector<SceneResult>& results,
-                           const std::vector<std::string>& estimators, const SensorModel& sensor,
-                           double klux) {
-  const auto part = [&](const std::string& title,
-                        const std::function<std::string(const EstimatorResult&)>& cell) {
-    return fmt::format("\n### {}\n\n{}", title, matrix(results, estimators, cell).markdown());
-  };
-  const std::string overview =
-      part("All pixels: above 3 % / 10 %", [](const EstimatorResult& r) { return share_pair(r.score.all); });
-  fmt::print("\n## {:g} klux, sensor {}\n{}", klux, sensor.name, overview);
-  std::string report = fmt::format("\n## {:g} klux, sensor {}\n\n{}\n{}", klux, sensor.name,
-                                   table_sentence(run.rule, sensor, run.options.seed), overview);
-  report += part("Pixels at depth edges", [](const EstimatorResult& r) { return share_pair(r.score.edges); });
-  report += part("Other pixels", [](const EstimatorResult& r) { return share_pair(r.score.rest); });
-  report += part("Pixels unlike all their neighbours: above 10 %", [](const EstimatorResult& r) {
-    return r.score.singles.pixels == 0 ? kNoFigure
-                                       : fmt::format("{:.2f}", r.score.singles.above_10_percent * 100.0);
-  });
-  report += part("Relative rmse, %",
-                 [](const EstimatorResult& r) { return fmt::format("{:.2f}", r.score.all.rmse * 100.0); });
-  report += part("Median error over the single pixel's bound", [](const EstimatorResult& r) {
-    return std::isnan(r.error_over_bound) ? kNoFigure : fmt::format("{:.2f}", r.error_over_bound);
-  });
-  report += part("Outliers (above 10 %) removed by dropping the 5 % of lowest confidence, %",
-                 [](const EstimatorResult& r) {
-                   return std::isnan(r.score.removed[2]) ? kNoFigure
-                                                         : fmt::format("{:.0f}", r.score.removed[2] * 100.0);
-                 });
-  return report + gain_by_pooling(results, estimators);
-}
-
 void write_confidence_curves(const std::filesystem::path& path, const std::vector<SceneResult>& results,
                              const std::vector<std::string>& estimators, const std::string& sensor,
                              double klux) {
@@ -340,10 +236,14 @@ void run_light(ScenesRun& run, const SensorScenes& of, double klux) {
   Progress progress(fmt::format("{} {:g} klux", of.sensor.name, klux), scenes.size() + 1);
   const SceneStudy study(of.sensor, klux, of.readouts, run.options.seed, run.options.threads, run.rule);
   progress.advance();
-  const std::vector<SceneResult> results = measure_scenes(run, study, of.sensor, klux, scenes, progress);
-  run.report += light_sections(run, results, study.estimators(), of.sensor, klux);
+  run.results.lights.push_back({klux, of.sensor.name, table_sentence(run.rule, of.sensor, run.options.seed),
+                                study.estimators(),
+                                measure_scenes(run, study, of.sensor, klux, scenes, progress)});
+  const LightResults& light = run.results.lights.back();
+  fmt::print("\n## {:g} klux, sensor {}\n\n### All pixels: above 3 % / 10 %\n\n{}", klux, of.sensor.name,
+             all_pixels_table(light).markdown());
   write_confidence_curves(run.folder / fmt::format("confidence_{:g}klux_{}.svg", klux, of.sensor.name),
-                          results, study.estimators(), of.sensor.name, klux);
+                          light.scenes, light.estimators, of.sensor.name, klux);
 }
 
 void run_scenes_command(const ScenesOptions& options) {
@@ -351,7 +251,7 @@ void run_scenes_command(const ScenesOptions& options) {
                 .rule = parse_table_rule(options.table),
                 .folder = options.out,
                 .csv = Table(csv_header()),
-                .report = {}};
+                .results = {}};
   std::vector<SensorScenes> sensors;
   for (const std::string& name : options.sensors) {
     SensorModel sensor = find_sensor(name);
@@ -360,17 +260,12 @@ void run_scenes_command(const ScenesOptions& options) {
     sensors.push_back({std::move(sensor), std::move(readouts), std::move(list)});
   }
   create_output_folder(run.folder);
-  run.report = fmt::format(
-      "# Read-outs on scenes\n\nPer cent of pixels with a relative error above 3 % / above 10 %. Seed "
-      "{}, at most {} columns of a scene. \"hisPointer pairs\" finds its coarse peak over pairs of "
-      "adjacent bins. The matched filter uses the full histogram and the true signal and background. "
-      "Edges: pixels with a neighbour that differs by more than 10 %. Bound: Cramer-Rao bound of a "
-      "single pixel; the table has the median of |error| / bound, divided by its value for a normal "
-      "variable (0.674). Scenes \"held\": no parameter of poolPointer was chosen on them.\n\nCommand: "
-      "`{}`\n",
-      options.seed, options.columns, options.command_line);
-  for (const std::string& note : sensors.front().list.notes) {
-    run.report += fmt::format("\n{}\n", note);
+  run.results = {.seed = options.seed,
+                 .columns = options.columns,
+                 .notes = sensors.front().list.notes,
+                 .lights = {},
+                 .command_line = options.command_line};
+  for (const std::string& note : run.results.notes) {
     fmt::print("{}\n", note);
   }
   for (const SensorScenes& sensor : sensors) {
@@ -379,7 +274,7 @@ void run_scenes_command(const ScenesOptions& options) {
     }
   }
   write_file(run.folder / "scenes.csv", run.csv.csv());
-  write_file(run.folder / "scenes.md", run.report);
+  write_page(run.folder, "scenes", "scenes", scenes_page(run.results));
   fmt::print("\nSeed {}. Tables, error maps and confidence curves are in {}\n", options.seed, options.out);
 }
 
