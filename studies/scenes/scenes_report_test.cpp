@@ -33,7 +33,7 @@ EstimatorResult estimator(double share, double error_over_bound) {
   return result;
 }
 
-ScenesResults made_up() {
+ScenesResults made_up_scenes() {
   const LightResults light = {14.0,
                               "thesis",
                               "No table.",
@@ -48,7 +48,7 @@ ScenesResults made_up() {
 }
 
 TEST(ScenesReport, ThePageOfALight) {
-  const std::string page = page_text("scenes", scenes_page(made_up()));
+  const std::string page = page_text("scenes", scenes_page(made_up_scenes()));
   EXPECT_THAT(page, HasSubstr("# Read-outs on scenes\n\nPer cent of pixels with a relative error above 3 % / "
                               "above 10 %. Seed 7, at most 20 columns of a scene. \"hisPointer pairs\""));
   EXPECT_THAT(page, EndsWith(R"(Scenes "held": no parameter of poolPointer was chosen on them.
@@ -118,7 +118,7 @@ No table.
 }
 
 TEST(ScenesReport, GainByPoolingNeedsBothReadouts) {
-  ScenesResults results = made_up();
+  ScenesResults results = made_up_scenes();
   results.lights[0].estimators[1] = "FiFH";
   EXPECT_THAT(page_text("scenes", scenes_page(results)), Not(HasSubstr("Gain by pooling")));
 }

@@ -214,7 +214,7 @@ TEST(SensorFile, SurroundingsThatCannotBeAreRefusedWithTheLine) {
   EXPECT_THAT(laser("firing_offset_bits = 5"), HasSubstr("firing_offset_bits needs firing_offset_step_ns"));
   EXPECT_THAT(laser("firing_offset_step_ns = 5"),
               HasSubstr("firing_offset_step_ns needs firing_offset_bits"));
-  EXPECT_THAT(laser("firing_offset_seed = 0"), HasSubstr("not all 0"));
+  EXPECT_THAT(laser("firing_offset_seed = 0"), HasSubstr("stops if all are 0"));
   const auto tdc = [](const std::string& keys) { return refusal(with("[laser]", keys + "\n[laser]")); };
   EXPECT_THAT(tdc("column_skew_pattern = \"ramp\""), HasSubstr("needs a column_skew_ps above 0"));
   EXPECT_THAT(tdc("column_skew_ps = 1\ncolumn_skew_pattern = \"odd\""),
