@@ -22,9 +22,10 @@ namespace dtof::test {
 
 /// The program that has the command with which the arguments begin.
 inline std::string_view program_of(std::string_view arguments) {
-  constexpr std::array<std::string_view, 14> kStudies = {
-      "claims",   "dynamic-range", "hostile-scenes", "frames", "enlarge", "accuracy",       "coverage",
-      "fidelity", "measured",      "reproduce",      "scenes", "walk",    "sensor-effects", "speed-error"};
+  constexpr std::array<std::string_view, 15> kStudies = {
+      "claims",    "page",     "dynamic-range", "hostile-scenes", "frames",
+      "enlarge",   "accuracy", "coverage",      "fidelity",       "measured",
+      "reproduce", "scenes",   "walk",          "sensor-effects", "speed-error"};
   const std::string_view command = arguments.substr(0, arguments.find(' '));
   return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
 }

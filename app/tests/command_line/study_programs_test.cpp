@@ -391,5 +391,16 @@ TEST_F(Programs, ClaimsWritesItsReportAndPictures) {
   expect_refused("claims --pixels 99 --out out", "--pixels");
 }
 
+TEST_F(Programs, APageIsMadeAgainFromItsValues) {
+  ASSERT_EQ(dtof("claims --pixels 100 --out claims").exit_code, 0);
+  const Outcome made = dtof("page " + path("claims/claims.page.json"));
+  EXPECT_EQ(made.exit_code, 0);
+  EXPECT_EQ(made.output, read_file(path("claims/claims.md")));
+  expect_refused("page " + file("a.json", "{"), "a.json: this is no page's data");
+  expect_refused("page " + file("a.json", R"({"template": "none", "data": {}})"), "no template 'none'");
+  expect_refused("page " + file("a.json", R"({"template": "claims", "data": {}})"),
+                 "the data has no 'pixels'");
+}
+
 }  // namespace
 }  // namespace dtof
