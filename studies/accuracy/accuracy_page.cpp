@@ -119,6 +119,7 @@ PageData bands_data(const LightBands& light) {
 PageData accuracy_page(const StudySettings& settings, const std::string& fidelity,
                        const std::vector<LightAccuracy>& lights) {
   std::vector<PageData> sections;
+  sections.reserve(lights.size());
   for (const LightAccuracy& light : lights) {
     sections.push_back(light_data(settings, light));
   }
@@ -142,6 +143,7 @@ PageData accuracy_page(const StudySettings& settings, const std::string& fidelit
 PageData map_accuracy_page(const MapAccuracySettings& settings, const OwnScene& scene,
                            const std::string& fidelity, const std::vector<LightBands>& lights) {
   std::vector<PageData> sections;
+  sections.reserve(lights.size());
   for (const LightBands& light : lights) {
     sections.push_back(bands_data(light));
   }

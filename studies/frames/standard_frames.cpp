@@ -106,6 +106,7 @@ std::vector<PageData> sensors_data(const StandardFramesSettings& settings) {
 
 std::vector<PageData> checked_data(const std::vector<CheckedFrame>& checked) {
   std::vector<PageData> frames;
+  frames.reserve(checked.size());
   for (const CheckedFrame& frame : checked) {
     frames.push_back(PageData()
                          .set("sensor", "{}", frame.sensor)

@@ -107,6 +107,7 @@ PageData walk_page(const WalkSettings& settings, const std::vector<WalkReadout>&
                    const std::string& command_line) {
   const Verdicts verdicts = judge(readouts);
   std::vector<PageData> sections;
+  sections.reserve(readouts.size());
   for (const WalkReadout& readout : readouts) {
     sections.push_back(
         PageData().set("readout", "{}", readout.title).set("biases", bias_table(readout, settings)));
