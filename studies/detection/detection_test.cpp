@@ -59,23 +59,24 @@ TEST(Detection, ReportAndPictureHaveEveryCell) {
            {50.0, 3.0, {.value = 0.5, .interval = {0.4, 0.6}}, {.value = 1.0, .interval = {1.0, 1.0}}},
            {50.0, 4.0, {.value = 0.25, .interval = {0.2, 0.3}}, {.value = 1.0, .interval = {1.0, 1.0}}}}}};
   const std::string report = page_text("detection", detection_page(settings, study, "dtof-study detection"));
-  EXPECT_THAT(report,
-              HasSubstr("\n\nOne threshold of confidence for each read-out, sensor `thesis`: at most 0.01 of "
-                        "the pixels pass in any frame of sky alone, from 14 to 50 klux and for skies like "
-                        "surfaces of reflectivity 0.5 to 2. Walls of reflectivity 0.5.\n\n* At 14 klux "));
+  EXPECT_THAT(
+      report,
+      HasSubstr("\n\nSensor `thesis`. Each read-out has one threshold of confidence, which at most 0.01 of "
+                "the pixels pass in any frame of sky alone, from 14 to 50 klux, and for skies as bright "
+                "as surfaces of reflectivity 0.5 to 2. The targets are walls of reflectivity "
+                "0.5.\n\n* At 14 klux "));
   EXPECT_THAT(
       report,
       HasSubstr("\n\nModels, exact photons, 2 seeds: 34 columns of 24 rows that look at one target. "
                 "The threshold is the lowest confidence that at most 0.01 of the pixels reach in each "
-                "of 6 skies; false alarms are counted in frames of other seeds. Intervals: "
-                "data/detection.csv.gz.\n\nCommand: `dtof-study detection`\n"));
+                "of 6 skies; false alarms are counted in frames of other seeds. "
+                "data/detection.csv.gz has the intervals.\n\nCommand: `dtof-study detection`\n"));
   EXPECT_THAT(report, HasSubstr("87.50 / 100.00"));
   EXPECT_THAT(report, HasSubstr("25.00 / 100.00"));
-  EXPECT_THAT(
-      report,
-      HasSubstr("At 14 klux at least 90 % of a wall's pixels pass and are right: poolPointer to 3 m."));
-  EXPECT_THAT(report,
-              HasSubstr("At 50 klux at least 90 % of a wall's pixels pass and are right: of no read-out."));
+  EXPECT_THAT(report, HasSubstr("At 14 klux at least 90 % of the pixels of a wall pass and are at most 10 % "
+                                "off: poolPointer to 3 m."));
+  EXPECT_THAT(report, HasSubstr("At 50 klux at least 90 % of the pixels of a wall pass and are at most 10 % "
+                                "off: with no read-out."));
   EXPECT_THAT(report, HasSubstr("0.50"));
   const std::vector<PlotSeries> curves = detection_curves(settings, study);
   ASSERT_EQ(curves.size(), 1U);

@@ -64,9 +64,9 @@ class LaneCircuit {
     Lanes low, high, flipped;
   };
   struct Flip {
-    std::uint64_t clock;
+    std::uint64_t clock = 0;
     FaultSite site;
-    std::size_t lane;
+    std::size_t lane = 0;
   };
   struct Run {
     GateKind kind;

@@ -232,6 +232,7 @@ std::vector<PageData> arrays_data(std::span<const ArrayResult> results,
       continue;
     }
     std::vector<PageData> lives;
+    lives.reserve(kLives.size());
     for (const FaultLife life : kLives) {
       lives.push_back(life_data(result, life));
     }

@@ -120,10 +120,11 @@ TEST_F(HostileReport, NamesTheConditionsThatAPoolReadoutDoesNotSurvive) {
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true), IsEmpty())
       << "it is compensated";
   const std::string report = page("the command");
-  EXPECT_THAT(report,
-              HasSubstr("poolPointer has more than twice the coarse histogram's errors above 3 %, beyond "
-                        "both intervals, under: late-laser (14 klux)."));
-  EXPECT_THAT(report, HasSubstr("the best one's share named, under: no condition."));
+  EXPECT_THAT(
+      report,
+      HasSubstr("poolPointer has more than twice the errors above 3 % of the coarse histogram, beyond "
+                "both intervals: late-laser (14 klux)."));
+  EXPECT_THAT(report, HasSubstr("(in brackets the share of the best read-out): no condition."));
   EXPECT_THAT(report, HasSubstr("coarse histogram 98, poolPointer 98, matched filter 98"));
   EXPECT_THAT(report, HasSubstr("* fog: fog of 39 m visibility"));
   EXPECT_THAT(report, HasSubstr("Command: `the command`"));
@@ -137,17 +138,18 @@ TEST_F(HostileReport, SaysHowItWasMeasured) {
       page("the command"),
       HasSubstr(
           "# What each read-out survives\n\n2 read-outs and two matched filters under 3 conditions, sensor "
-          "`thesis`, 14 klux.\n\n* Every read-out "));
+          "`thesis`, 14 klux.\n\n* Conditions under which "));
   EXPECT_THAT(
       page("the command"),
       HasSubstr(
           "\n\n## How it was measured\n\nModels, exact photons. Scenes room, planes, poles, sky: 8 rows of "
           "the 34 columns (an engine of poolPointer) around the centre of the sensor's pixels. 2 seeds "
           "from 3 on, each with 1000 pixels with a target and 100 without. Each estimator has one look-up "
-          "table for each light, of the sensor in clear conditions, and subtracts the known skew; nothing "
-          "else is known to it, but where a table says so. No host filter.\n\nThe threshold of an "
-          "estimator is the lowest confidence that at most 1 % of the pixels of frames of sky alone "
-          "reach, in clear conditions, at each light; other seeds than those of the tables."));
+          "table for each light, from the sensor in clear conditions, and subtracts the known skew. Except "
+          "where a table says so, it has no other knowledge of the conditions. There is no host "
+          "filter.\n\nThe threshold of an estimator is the lowest confidence that at most 1 % of the pixels "
+          "of frames of sky alone "
+          "reach, in clear conditions, at each light. One threshold serves all lights and conditions."));
 }
 
 TEST_F(HostileReport, NamesWhatFoolsEveryReadout) {
@@ -180,10 +182,11 @@ TEST_F(HostileReport, NamesWhatRemainsOfTheCompensatedEstimators) {
   study_.compensated[{"late-laser", 14.0}]["coarsehistogram"] = hostile_seeds(0, 60);
   EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true), ElementsAre("clear (14 klux)"))
       << "the coarse histogram has its settings, too";
-  EXPECT_THAT(page(),
-              HasSubstr("With these settings for both, poolPointer has more than twice the coarse "
-                        "histogram's errors under: clear (14 klux). Its pixels above 3 %, in % at 14 klux: "
-                        "fog 2, late-laser 7.\n"));
+  EXPECT_THAT(
+      page(),
+      HasSubstr("* The same if both have the settings of a user who knows these conditions (below): clear "
+                "(14 klux). Pixels of poolPointer above 3 % with these settings, in % at 14 klux: fog "
+                "2, late-laser 7.\n"));
 }
 
 TEST_F(HostileReport, HasTheErrorsOfTheCompensatedEstimators) {

@@ -132,7 +132,7 @@ TEST(CoverageReport, SentencesFollowTheFigures) {
   EXPECT_THAT(good, HasSubstr("10 of these lie from 0.8 to 1.25 at once"));
   EXPECT_THAT(
       good,
-      HasSubstr("|\n\nNo cell lies outside.\n\n## --precision: is the true error reached where it stops?\n"));
+      HasSubstr("|\n\nNo cell lies outside.\n\n## Is the error within --precision when a run stops?\n"));
   EXPECT_THAT(good, HasSubstr("|\n\n0 of 1 fail.\n\nCommand: `dtof-study coverage`\n"));
 
   study.cells[3].seen.spread = 2.5;
@@ -142,14 +142,15 @@ TEST(CoverageReport, SentencesFollowTheFigures) {
   const std::string bad = page();
   EXPECT_THAT(
       bad,
-      HasSubstr("**9 of 10 cells hold.** 9 are judged by the spread: 8 of these lie from 0.8 to 1.25 at "
-                "once, 0 when drawn again.\n1 are judged by the share of intervals that hold the truth: 1 "
-                "of these hold at once, 0 when drawn again.\n\nExtremes "));
+      HasSubstr(
+          "**9 of 10 cells hold.** Judged by the spread: 9; 8 of these lie from 0.8 to 1.25 at once, 0 "
+          "after runs were drawn again.\nJudged by the share of intervals that contain the truth: 1; 1 of "
+          "these hold at once, 0 after runs were drawn again.\n\nExtremes "));
   EXPECT_THAT(bad, HasSubstr("|\n\nCells that lie outside with the seeds' own runs:\n\n| read-out "));
   EXPECT_THAT(bad, HasSubstr("|\n\n1 of 1 fail:\n\n| read-out "));
   EXPECT_THAT(bad, HasSubstr("**9 of 10 cells hold.**"));
   EXPECT_THAT(bad, HasSubstr("8 of these lie from 0.8 to 1.25 at once"));
-  EXPECT_THAT(bad, HasSubstr("1 are judged by the share of intervals"));
+  EXPECT_THAT(bad, HasSubstr("Judged by the share of intervals that contain the truth: 1;"));
   EXPECT_THAT(bad, Not(HasSubstr("No cell lies outside.")));
   EXPECT_THAT(bad, HasSubstr("above 3 % before the table"));
   EXPECT_THAT(bad, HasSubstr("1 of 1 fail:"));

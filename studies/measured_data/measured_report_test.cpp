@@ -58,16 +58,16 @@ TEST(MeasuredReport, ThePageOfTwoSurfaces) {
   surfaces.other_m = {1.0};
   EXPECT_EQ(page_of(surfaces), R"(# The title
 
-Photon arrival times, 26 x 16 pixels, 50.8 photons per pixel in the mean. Truth: the surface, as estimated from all photons, that more of the pixel's photons come from. Thinned to the photons named (mean of a pixel and frame) and resampled to 3333 acquisitions of 45 ns, 10 bits, 4 frames of each light; background: events added per acquisition (preset `thesis`: 0.15 at 14 klux, 0.54 at 50). Each read-out's constant offset, its median difference to truth in the first light, is taken away. Seed 9.
+Photon arrival times, 26 x 16 pixels, 50.8 photons per pixel in the mean. Truth: of the two surfaces, estimated from all photons, the one from which more of the pixel's photons come. The photons are thinned to the mean number per pixel and frame that each table names, and resampled to 3333 acquisitions of 45 ns with timestamps of 10 bits. Frames of each light: 4. Background: events that are added per acquisition (preset `thesis`: 0.15 at 14 klux, 0.54 at 50 klux). The constant offset of each read-out, its median difference to the truth in the first light, is subtracted. Seed 9.
 
-Per cent of pixels with an error above 3 % / 10 %:
+Pixels with an error above 3 % / 10 %, in %:
 
 | light                       |   ezPointer |        SiFH |
 |-----------------------------|------------:|------------:|
 | all photons                 | 20.0 / 10.0 |  10.0 / 5.0 |
 | 25 photons, 0.15 background | 40.0 / 20.0 | 20.0 / 10.0 |
 
-Per cent of pixels more than 3 % off both surfaces:
+Pixels that are more than 3 % off both surfaces, in %:
 
 | light                       | ezPointer | SiFH |
 |-----------------------------|----------:|-----:|
@@ -88,7 +88,7 @@ Median error, mm:
 | all photons                 |        10 |    5 |
 | 25 photons, 0.15 background |        20 |   10 |
 
-Per cent of the outliers (above 10 %) removed by dropping the 5 % of lowest confidence:
+Outliers (errors above 10 %) that are removed with the 5 % of the pixels that have the lowest confidence, in % of all outliers:
 
 | light                       | ezPointer | SiFH |
 |-----------------------------|----------:|-----:|
@@ -104,7 +104,7 @@ Command: `the command`
   const std::string behind = page_of(surfaces);
   EXPECT_THAT(behind,
               HasSubstr("50.8 photons per pixel in the mean after tick 5200; earlier ones are left out. "
-                        "Truth: the surface,"));
+                        "Truth: of the two surfaces,"));
   EXPECT_THAT(behind, Not(HasSubstr("both surfaces")));
 }
 
@@ -121,13 +121,17 @@ TEST(MeasuredReport, SaysWhereTheTrueDistancesComeFrom) {
   EXPECT_THAT(
       beginning(TruthOrigin::kStrongestReturn),
       StartsWith(before + "Truth: the strongest return of each pixel, the mean time of the photons in the "
-                          "2 ns that hold the most of all of its photons. Pixels left out because they "
-                          "have no return: 1. Thinned to"));
-  EXPECT_THAT(beginning(TruthOrigin::kPlane),
-              StartsWith(before + "Truth: the known distance of the plane in each capture. Thinned to"));
-  EXPECT_THAT(beginning(TruthOrigin::kSensor),
-              StartsWith(before + "Truth: the distance that the sensor itself reported. Thinned to"));
-  EXPECT_THAT(beginning(TruthOrigin::kMap), StartsWith(before + "The truth is the map map.png. Thinned to"));
+                          "window of 2 ns that has most of the pixel's photons. Pixels left out because they "
+                          "have no return: 1. The photons are thinned to"));
+  EXPECT_THAT(
+      beginning(TruthOrigin::kPlane),
+      StartsWith(before +
+                 "Truth: the known distance of the plane in each capture. The photons are thinned to"));
+  EXPECT_THAT(
+      beginning(TruthOrigin::kSensor),
+      StartsWith(before + "Truth: the distance that the sensor itself reported. The photons are thinned to"));
+  EXPECT_THAT(beginning(TruthOrigin::kMap),
+              StartsWith(before + "The truth is the map map.png. The photons are thinned to"));
 }
 
 TEST(MeasuredReport, SaysWhatIsLeftOut) {
@@ -141,7 +145,8 @@ TEST(MeasuredReport, SaysWhatIsLeftOut) {
       HasSubstr("of 26 x 16 pixels. If the log has histograms of the sensor's row 0 only, as the published "
                 "one has, each frame is a column here and the zones of row 0 are its rows: read-outs that "
                 "pool pixels need neighbours in a column. Truth: the distance that the sensor itself "
-                "reported. Pixels left out because they are beyond the range, 4.50 m: 3. Thinned to"));
+                "reported. Pixels left out because they are beyond the range, 4.50 m: 3. The photons are "
+                "thinned to"));
   MeasuredResults none = results();
   none.compared_with_rtl = {.equal = {}, .not_compiled = {"ezPointer", "SiFH"}};
   EXPECT_THAT(

@@ -26,6 +26,7 @@ class PageData {
   /// Sets a text by a format and its arguments. A name that is already set throws std::logic_error, here and
   /// below.
   template <typename... Args>
+  // clang-tidy 14 does not notice that the name is moved. NOLINTNEXTLINE(performance-unnecessary-value-param)
   PageData& set(std::string name, fmt::format_string<Args...> format, Args&&... args) {
     return add(std::move(name), fmt::format(format, std::forward<Args>(args)...));
   }

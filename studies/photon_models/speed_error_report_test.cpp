@@ -46,7 +46,7 @@ TEST(SpeedErrorReport, AdviceFollowsTheFigures) {
   const std::string one = page_with({.exact_stream_ms = 700, .fast_stream_ms = 800, .fast_sampler_ms = 300},
                                     {falling_to_a_tenth("exact", 5.0), kAnalytic});
   EXPECT_THAT(one, HasSubstr(R"(
-Which one, by the figures above:
+Which model to take, by the figures above:
 
 * **a stream** (RTL, recording, several read-outs of the same photons): the exact model, 700 ms a frame against 800 ms with the fast one;
 * **one read-out model of a frame**: the fast model's sampler, 300 ms against 700 ms with the exact model;
@@ -64,7 +64,7 @@ Only the exact)"));
 TEST(SpeedErrorReport, ThePageHasItsFigures) {
   const std::string page = page_with({}, {falling_to_a_tenth("exact", 5.0), kAnalytic});
   EXPECT_THAT(page, HasSubstr(R"(
-Preset thesis, seed 9, 300 frames a point; 15 scenes (2, 14 and 50 klux; 0.5 to 5 m), read-outs ezPointer, hisPointer, SiFH, FiFH and three steps. Command: `the command`
+Preset thesis, seed 9, 300 frames a point; 15 scenes (2, 14 and 50 klux; 0.5 to 5 m); read-outs ezPointer, hisPointer, SiFH, FiFH and three steps. Command: `the command`
 
 | model | bias, % |
 |-------|--------:|
@@ -77,13 +77,14 @@ Preset thesis, seed 9, 300 frames a point; 15 scenes (2, 14 and 50 klux; 0.5 to 
 | 100    |             5 |        1 |               40 |      0.2 |
 | 10000  |           500 |      0.1 |               40 |      0.2 |
 
-* **picture)"));
-  EXPECT_THAT(page, HasSubstr("truth: 400 other frames of the exact model"));
+* **Picture)"));
+  EXPECT_THAT(page, HasSubstr("The truth is 400 other frames of the exact model"));
   EXPECT_THAT(page, HasSubstr("200 x 160 pixels, 3333 acquisitions, a plane from 0.8 to 5 m at 14 klux (23.8 "
-                              "million detections exact), 2 threads;"));
-  EXPECT_THAT(page,
-              HasSubstr("(times, 15 tests), detections per pixel (numbers, 15) and results by code "
-                        "(results, 75). With 75 tests of a right model the smallest is below 1e-04 once"));
+                              "million detections in the exact model), 2 threads."));
+  EXPECT_THAT(
+      page, HasSubstr("(times, 15 tests), detections of each pixel (numbers, 15 tests) and results of "
+                      "each code (results, 75 tests). With 75 tests of a right model the smallest p-value is "
+                      "below 1e-04 once"));
 }
 
 }  // namespace

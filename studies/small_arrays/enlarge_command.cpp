@@ -67,6 +67,7 @@ void write_picture(const std::filesystem::path& file, const std::vector<Labelled
     return DepthImage{sensor.columns, sensor.rows, {values.begin(), values.end()}};
   };
   std::vector<MapPanel> panels;
+  panels.reserve(2 * maps.size());
   for (const LabelledMap& map : maps) {
     panels.push_back({image_of(map.distance_m), map.label, MapKind::kDepth});
   }
@@ -127,6 +128,7 @@ PageData enlarge_page(const EnlargeOptions& options, const SensorModel& sensor,
                       const std::vector<EnlargeScene>& scenes, std::span<const EnlargeLight> lights,
                       const std::string& picture_title, const std::string& picture) {
   std::vector<std::string> names;
+  names.reserve(scenes.size());
   for (const EnlargeScene& scene : scenes) {
     names.push_back(scene.name);
   }

@@ -125,16 +125,18 @@ TEST(WalkReport, NamesWhatTheCorrectionDoes) {
                                readout("D", 0.06, 0.02), readout("E", 0.06, 0.03, false)},
                               "the command"));
   EXPECT_THAT(
-      page, HasSubstr("# Walk error\n\nA bright target fills the TDC's 2 slots early (pile-up), so that its "
-                      "pulse seems nearer. Flat targets, 640 pixels at each reflectivity and distance, 14 "
-                      "klux, sensor thesis, 1000 acquisitions, seed 1.\n\n* Before: the look-up table is "
-                      "fitted on flat targets of reflectivity 1 at "));
+      page,
+      HasSubstr("# Walk error\n\nEvents of a bright target fill the 2 slots of the TDC early (pile-up), so "
+                "that the target seems nearer. Measured with flat targets: 640 pixels at each "
+                "reflectivity and distance, 14 klux, sensor thesis, 1000 acquisitions, seed 1.\n\n* Before: "
+                "the look-up table is "
+                "fitted on flat targets of reflectivity 1 at "));
   EXPECT_THAT(page,
               HasSubstr("|\n\n* The walk is at least halved: A (80 to 30 mm), D (60 to 20 mm).\n"
-                        "* It is reduced by less than half: B (80 to 50 mm).\n"
-                        "* It is not reduced: C (80 to 90 mm).\n"
-                        "* It could not be judged: E.\n\n"
-                        "All points with shares of errors: [walk_error.csv](walk_error.csv). Bias in mm, "
+                        "* The walk is reduced by less than half: B (80 to 50 mm).\n"
+                        "* The walk is not reduced: C (80 to 90 mm).\n"
+                        "* The walk could not be judged: E.\n\n"
+                        "[walk_error.csv](walk_error.csv) has all points, with shares of errors. Bias in mm, "
                         "before -> after:\n\n## A\n\n| reflectivity "));
   EXPECT_THAT(page, HasSubstr("| 90.0 +- 1.0 -> 40.0 +- 1.0 |"));
   EXPECT_THAT(page, EndsWith("\n\nCommand: `the command`\n"));

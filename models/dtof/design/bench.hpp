@@ -89,7 +89,7 @@ class BenchTables {
 
  private:
   struct Entry {
-    double klux;
+    double klux = 0.0;
     ReadoutParameters readout;
     RangeConverter table;
   };
