@@ -113,16 +113,15 @@ TEST_F(Programs, EnlargeComparesSmallArraysWithTheLargeOne) {
                               "--array 12x10 6x5 --picture-array 12x10 -r poolpointer hispointer --seeds 2 ";
   const Outcome outcome = dtof(command + "--out out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output,
-              HasSubstr("has fewer pixels above 3 % than the map of the large array: **1 klux: "));
+  EXPECT_EQ(outcome.output, "The report is out/enlarge.md\n");
   const std::string csv = read_file(path("out/enlarge.csv"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * (1 + 2 * 3 * 4));
   EXPECT_THAT(csv, HasSubstr("1,staircase,24 x 20,poolPointer,-,480,"));
   EXPECT_THAT(csv, HasSubstr("1,hut,12 x 10,hisPointer,learned,440,"));  // 40 pixels are not known
   const std::string report = read_file(path("out/enlarge.md"));
   EXPECT_THAT(report, HasSubstr("](enlarge_1klux.png)"));
+  EXPECT_THAT(report, HasSubstr("has fewer pixels above 3 % than the map of the large array: **1 klux: "));
   EXPECT_THAT(report, HasSubstr("Seeds 1 to 2"));
-  EXPECT_THAT(outcome.output, HasSubstr(report.substr(report.find("Small arrays whose map"), 80)));
   EXPECT_GT(std::filesystem::file_size(path("out/enlarge_1klux.png")), 1000U);
   ASSERT_EQ(dtof(command + "-j 1 --out again").exit_code, 0);
   EXPECT_EQ(read_file(path("again/enlarge.csv")), csv);
