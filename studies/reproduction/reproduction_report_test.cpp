@@ -165,7 +165,7 @@ TEST(ReproductionReport, EverySentenceFollowsItsFigures) {
        [](Reproduction& r) {
          r.guards.front().measured = study({Readout::kHisPointer}, 14.0, {0.5, 1.0}, 0.01);
        },
-       "(intervals apart) at: 0.5 m, 1 m.", "(intervals apart) at: none."},
+       "do not overlap, at: 0.5 m, 1 m.", "do not overlap, at: none."},
       {"Fig. 3.13b", [](Reproduction& r) { r.indoors = peaks(10.0, 500.0, 400); }, "0.2 [0.0, 0.7]",
        "40.0 [37.0, 43.1]"},
       {"Fig. 3.15", [](Reproduction& r) { r.far = peaks(8.0, 600.0, 2); },
@@ -177,8 +177,8 @@ TEST(ReproductionReport, EverySentenceFollowsItsFigures) {
       {"slots of the TDC", [](Reproduction& r) { r.sensor.slots = 8; }, "the TDC has 2 slots",
        "the TDC has 8 slots"},
       {"assumptions", [](Reproduction& r) { r.assumptions[1].measured = studies(0.03); },
-       "(intervals apart) with: four slots; above with: none",
-       "(intervals apart) with: none; above with: four slots"},
+       "do not overlap, with: four slots; above with: none",
+       "do not overlap, with: none; above with: four slots"},
       {"steps",
        [](Reproduction& r) {
          r.steps[1].measured = study({Readout::kEzPointer}, 14.0, {0.2, 0.3}, 0.05);
@@ -231,9 +231,9 @@ TEST(ReproductionReport, CountsItsVerdicts) {
 TEST(ReproductionReport, TheFrontPageSaysHowItWasMeasured) {
   EXPECT_THAT(front_page(render_reproduction(figures(), "")), StartsWith(R"(# Reproduction of the thesis
 
-Accuracy statements of the thesis against this project's models: preset thesis (0.3 / R^2 signal events per pulse, 0.15 background events at 14 klux, 3333 acquisitions), 1000 frames per point, seed 1, look-up tables of calibration run 1. Relative precision is the thesis's own measure (Eq. 3.14).
+This page compares accuracy statements of the thesis with this project's models: preset thesis (0.3 / R^2 signal events per pulse, 0.15 background events at 14 klux, 3333 acquisitions), 1000 frames per point, seed 1, look-up tables of calibration run 1. Relative precision is the thesis's own measure (Eq. 3.14).
 
-"Agrees" is computed by the rule beside it: yes and no mean that the 95 % intervals of all figures concerned lie wholly on the right side, or one wholly on the wrong side, of the limit; open that an interval holds it (then 10000 frames are judged where they were run). Intervals allow for outliers that were not seen, up to the sensor's range, where one to nine were seen; where none was, in so many frames that they are rarer than 0.1 %, verdicts are about results without them ([docs/reference/accuracy.md](../docs/reference/accuracy.md)). An asterisk marks figures with fewer than ten outliers.
+"Agrees" follows from the rule beside it. *Yes*: the 95 % intervals of all figures in the rule lie wholly on the right side of the limit. *No*: one interval lies wholly on the wrong side. *Open*: an interval contains the limit; then 10000 frames are judged where they were run. If one to nine outliers were seen, an interval allows for outliers that were not seen, up to the range of the sensor. If none was seen, outliers are rarer than 0.1 %, and the verdict is about results without outliers ([docs/reference/accuracy.md](../docs/reference/accuracy.md)). An asterisk marks figures with fewer than ten outliers.
 
 **)"));
 }
@@ -241,7 +241,7 @@ Accuracy statements of the thesis against this project's models: preset thesis (
 // What the page of figures() has between its tables.
 constexpr std::array kWords = {
     R"(
-Every figure with its interval: [accuracy.csv](reproduction/accuracy.csv).
+[accuracy.csv](reproduction/accuracy.csv) has every figure with its interval.
 
 ## Linearity (Fig. 3.16)
 )",
@@ -252,58 +252,58 @@ Relative precision / rmse without table / share of errors above 10 %, all in %; 
 
 |)",
     R"(
-A pixel has 0.54 background events per acquisition, four binned ones have 2.14; the TDC has 2 slots.
+A pixel has 0.54 background events per acquisition, four binned pixels together have 2.14; the TDC has 2 slots.
 
 ## Other readings
 
-Narrower or wider ranges, plots with fewer points, judged by the same sweeps: 6 agree, 4 do not, 3 stay open.
+The same sweeps judge narrower and wider ranges and plots with fewer points: 6 readings agree, 4 do not, 3 stay open.
 
 |)",
     R"(
 ## Other assumptions
 
-One change each, at 1000 frames (a tenth for 33,333 acquisitions):
+Each row changes one assumption, with 1000 frames (a tenth for 33,333 acquisitions):
 
 |)",
     R"(
-Most statements agree (6 of 15) with: preset, four slots; 6 with the preset.
+The largest number of statements that agree, 6 of 15, is found with: preset, four slots. With the preset, 6 agree.
 
 Relative precision at the nearest distance under the same assumptions:
 
 |)",
     R"(
-ezPointer's is below that of the preset (intervals apart) with: four slots; above with: none.
+The relative precision of ezPointer is below that of the preset, and the intervals do not overlap, with: four slots; above with: none.
 
-A pointer at rest still steps by a bin per photon. Its spread at the nearest targets (limit at 0.2 m: 10 %) with other steps:
+A pointer that has settled still moves by one bin for each photon. This is its spread at the nearest targets with other steps (limit at 0.2 m: 10 %):
 
 |)",
     R"(
 * step of 2 bins: 1.50 times the spread of the thesis's step at 0.2 m
 
-Both rates together, statements that agree / disagree / stay open:
+Both rates changed together; statements that agree / disagree / stay open:
 
 |)",
     R"(
-## How much light each read-out stands
+## How much light each read-out tolerates
 
 4000 frames per point.
 )",
     R"(
-One miss by half the distance in 4000 frames makes 0.8 % of relative precision by itself, in 1,000 frames 1.6 %.
+One result that is off by half the distance, in 4000 frames, alone gives a relative precision of 0.8 %; in 1,000 frames 1.6 %.
 
 ## What relative precision hides
 
-Eq. 3.14 is a spread: it does not show a mean that is off.
+Eq. 3.14 is a spread. It does not show a wrong mean.
 )",
     R"(
-ezPointer at 50 klux. At 2 of 2 distances its relative precision is at most 3 % while its rmse is above (m: 3, 5).
+ezPointer at 50 klux. At 2 of 2 distances the relative precision is at most 3 %, but the rmse is above 3 % (distances in m: 3, 5).
 
 |)",
     R"(
 ezPointer's bias at 5 m: -1.67 m with 3333 acquisitions, -0.02 m with 33333 acquisitions.
 )",
     R"(
-Fewer sensors share the laser, so each gets 32,000 / sensors times the signal; the background stays. Limits: 10 % below 1 m, 3 % from 1 to 3 m, at 0.2, 0.3, 0.5, 0.8, 1, 1.5, 2, 2.5 and 3 m, judged by the figures without their intervals. 2 array sizes from 3200 to 32000 sensors.
+If fewer sensors share the laser, each sensor has 32,000 / (number of sensors) times the signal and the same background. Limits: 10 % below 1 m, 3 % from 1 to 3 m, at 0.2, 0.3, 0.5, 0.8, 1, 1.5, 2, 2.5 and 3 m, judged by the figures without their intervals. 2 array sizes from 3200 to 32000 sensors.
 
 |)",
     R"(

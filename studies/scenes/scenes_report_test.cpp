@@ -49,8 +49,8 @@ ScenesResults made_up_scenes() {
 
 TEST(ScenesReport, ThePageOfALight) {
   const std::string page = page_text("scenes", scenes_page(made_up_scenes()));
-  EXPECT_THAT(page, HasSubstr("# Read-outs on scenes\n\nPer cent of pixels with a relative error above 3 % / "
-                              "above 10 %. Seed 7, at most 20 columns of a scene. \"hisPointer pairs\""));
+  EXPECT_THAT(page, HasSubstr("# Read-outs on scenes\n\nPixels with a relative error above 3 % / above 10 %, "
+                              "in %. Seed 7, at most 20 columns of a scene. \"hisPointer pairs\""));
   EXPECT_THAT(page, EndsWith(R"(Scenes "held": no parameter of poolPointer was chosen on them.
 
 Command: `the command`
