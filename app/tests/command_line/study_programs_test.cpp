@@ -385,7 +385,9 @@ TEST_F(Programs, ClaimsWritesItsReportAndPictures) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("Seed 1."));
   EXPECT_THAT(read_file(path("claims/claims.csv")), HasSubstr("\nnarrow,sketch,sketch M = 2,4,"));
-  EXPECT_THAT(read_file(path("claims/claims.md")), HasSubstr("## sunlit photons"));
+  const std::string page = read_file(path("claims/claims.md"));
+  EXPECT_THAT(page, HasSubstr("## sunlit photons"));
+  EXPECT_THAT(page, HasSubstr("over the whole range; 100 pixels, seed 1. Claims about"));
   EXPECT_GT(std::filesystem::file_size(path("claims/even.svg")), 0U);
   expect_refused("claims --pixels 99 --out out", "--pixels");
 }
