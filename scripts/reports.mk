@@ -5,7 +5,7 @@
 # make reports      renews every stale report in order (hours); stopped and started again it goes on where it was
 # make confirm      small runs, or digests of netlists and stimuli: reports whose inputs changed are confirmed if they are the same bytes as
 #                   before; NAMES="..." (docs/reference/figures.md)
-# make pages        writes the pages of studies again, after the words of a template changed; measures nothing
+# make pages        writes the pages of studies again, after the words of a page template changed; measures nothing
 .PHONY: figures stale stale-check reports confirm pages
 figures:
 	@scripts/reports.py figures
