@@ -26,7 +26,6 @@
 namespace dtof {
 namespace {
 
-constexpr int kTablePixels = 32;  // of each distance
 constexpr int kWideCounters = 16;
 
 struct Limit {
@@ -206,14 +205,12 @@ RangeReadouts measure_range_cell(const RangeSettings& settings, const RangeCell&
   }
   const std::uint64_t first_seed =
       settings.seed + static_cast<std::uint64_t>(cell.repeat) * static_cast<std::uint64_t>(settings.seeds);
-  const std::vector<RangeConverter> tables =
-      FlatCalibration(sensor, kTablePixels)
-          .fit(
-              [&](const TargetMap& targets) {
-                return std::make_unique<PhotonSource>(sensor, targets, cell.klux, first_seed,
-                                                      FlatCalibration::kFrame);
-              },
-              readouts, first_seed, settings.threads);
+  const std::vector<RangeConverter> tables = FlatCalibration(sensor).fit(
+      [&](const TargetMap& targets) {
+        return std::make_unique<PhotonSource>(sensor, targets, cell.klux, first_seed,
+                                              FlatCalibration::kFrame);
+      },
+      readouts, first_seed, settings.threads);
   std::vector<TargetMap> scenes;
   for (const Scene scene : settings.scenes) {
     scenes.push_back(middle_of(scene, sensor, settings.rows));

@@ -13,6 +13,7 @@
 
 #include "common/engine_frame.hpp"
 #include "common/percent_text.hpp"
+#include "dtof/frame/flat_calibration.hpp"
 
 namespace dtof {
 namespace {
@@ -315,6 +316,7 @@ PageData dynamic_range_page(const RangeSettings& settings, const DynamicRange& s
       .set("seeds", "{}", settings.seeds)
       .set("seed", "{}", settings.seed)
       .set("pixels", "{}", sum_of(study.grid.begin()->second.begin()->second).pixels)
+      .set("table_pixels", "{}", FlatCalibration::kPixels)
       .set("command", "{}", command_line);
   return data;
 }
