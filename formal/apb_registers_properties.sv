@@ -272,7 +272,7 @@ module apb_registers_properties #(
 
   // Transfers. A read samples in its setup; if the setup follows a write's access directly, or while a checksum is pending, it samples in a wait
   // state behind the setup.
-  logic samples, sampled_q, waits_q, wrote_q, legal_q, access, exists, legal, writes, starts, commits;
+  logic samples, sampled_q, waits_q, wrote_q, legal_q, access, exists, legal, writes, chosen, starts, commits;
   logic [11:0] offset;
   logic [31:0] bytes, ones;
 
@@ -287,7 +287,8 @@ module apb_registers_properties #(
   assign may = (is_template(offset) && busy_i) ? '0 : kept_bits(offset) | command_bits(offset);
   assign legal = exists && (!pwrite_i || is_sticky(offset) || (may != '0 && (ones & ~may) == '0));
   assign writes = access && pwrite_i && legal_q;
-  assign starts = writes && offset == dtof_registers_pkg::CONTROL && (ones[0] || ones[4]);
+  assign chosen = writes && offset == dtof_registers_pkg::CONTROL && (ones[0] || ones[4]);
+  assign starts = chosen && !busy_i && !ones[dtof_registers_pkg::CONTROL_ABORT_LSB];
   assign commits = starts || (writes && offset == dtof_registers_pkg::COMMIT && ones[0]);
 
   // The watched register: what was written last, and what the last commit made valid.
@@ -318,11 +319,11 @@ module apb_registers_properties #(
   logic [9:0] error_events, error_q;
   logic [3:0] warning_events, warning_q;
   logic [1:0] causes, cause_q, cause_enable_q;
-  logic start_q, self_test_q, flush_q, abort_q, reseed_q;
+  logic start_q, ignored_q, self_test_q, flush_q, abort_q, reseed_q;
   logic failed_q;  // an error in the last clock
 
   assign error_events = {self_test_failed_i, parity_error_i, flush_ignored_i, stalled_i, timeout_i, short_i || long_i, overrun_i, illegal_schedule_i,
-                         start_ignored_i, underrun_i};
+                         start_ignored_i || ignored_q, underrun_i};
   assign warning_events = {long_i, short_i, aborted_i, counter_full_i};
   assign causes = {failed_q, frame_i};
 
@@ -332,7 +333,7 @@ module apb_registers_properties #(
       warning_q <= '0;
       cause_q <= '0;
       cause_enable_q <= '0;
-      {start_q, self_test_q, flush_q, abort_q, reseed_q, failed_q} <= '0;
+      {start_q, ignored_q, self_test_q, flush_q, abort_q, reseed_q, failed_q} <= '0;
     end else begin
       error_q <= error_events | ((writes && offset == dtof_registers_pkg::ERROR) ? error_q & ~ones[9:0] : error_q);
       warning_q <= warning_events | ((writes && offset == dtof_registers_pkg::WARNING) ? warning_q & ~ones[3:0] : warning_q);
@@ -340,7 +341,8 @@ module apb_registers_properties #(
       if (writes && offset == dtof_registers_pkg::IRQ_ENABLE && pstrb_i[0]) cause_enable_q <= pwdata_i[1:0];
       failed_q <= error_events != '0;
       start_q <= starts;
-      self_test_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[4];
+      ignored_q <= chosen && !starts;
+      self_test_q <= starts && ones[4];
       flush_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[2];
       abort_q <= writes && offset == dtof_registers_pkg::CONTROL && ones[3];
       reseed_q <= writes && offset == dtof_registers_pkg::SHOT_SEED && (pstrb_i[0] || pstrb_i[1]);

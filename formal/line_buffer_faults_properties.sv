@@ -156,6 +156,13 @@ module line_buffer_faults_properties #(
     end
   end
 
+  // With a source that cannot wait, an acquisition that does not fit the buffer is offered a clock before the buffer is full.
+  logic latest, offered_q;
+  assign latest = (SOURCE_WAITS == 0) && (LINES < ACQUISITION_LINES) && (32'(level) >= LINES - 1);
+  always_ff @(posedge clk_i) begin
+    offered_q <= line_valid;
+  end
+
   logic under_way, over;
   assign under_way = (out_line_q != '0);
   assign over = (in_acquisition_q != out_acquisition_q);  // the source has already ended the acquisition that the array is in
@@ -166,7 +173,8 @@ module line_buffer_faults_properties #(
   `ASSUME(m_done_between, !done_i || (!under_way && !line_ready_i && !waits_q))
   `ASSUME(m_watched, 32'(watched_line) < ACQUISITION_LINES)
   `PROVE(a_uninterrupted, !rst_n || !under_way || line_valid)
-  `PROVE(a_released, !rst_n || under_way || !line_valid || drains_q || over || 16'(level) >= ((CLOCK_WAITS != 0) ? 16'd1 : release_i))
+  `PROVE(a_released, !rst_n || under_way || !line_valid || drains_q || over || latest || 16'(level) >= ((CLOCK_WAITS != 0) ? 16'd1 : release_i))
+  `PROVE(a_offered, !rst_n || !dropped || offered_q || lost_q)
   `PROVE(a_waits, !rst_n || !waits || (CLOCK_WAITS != 0 && under_way && !lost_q && !drains_q && (REGISTERS == 0 || level == '0)))
   `PROVE(a_no_underrun, !rst_n || CLOCK_WAITS == 0 || !underrun)
   `PROVE(a_dropped, !rst_n || !dropped || (SOURCE_WAITS == 0 && push && !behind_q && !thrown

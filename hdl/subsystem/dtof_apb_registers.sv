@@ -134,7 +134,7 @@ module dtof_apb_registers #(
   localparam int CAUSES = 2;  // causes of an interrupt
   localparam int WEAK_WIDTH = dtof_pkg::min_of(CONFIDENCE_WIDTH + 1, 16);
 
-  logic write, starts, commit;
+  logic write, starts, start_ignored, commit;
   logic [11:0] offset;
   logic [31:0] mask, written, there;
   logic [31:0] read_only, command, setting, template_word, event_flags;  // what the parts have at the offset
@@ -247,7 +247,9 @@ module dtof_apb_registers #(
       .mask_i              (mask),
       .written_i           (written),
       .data_o              (command),
+      .busy_i              (busy_i),
       .starts_o            (starts),
+      .start_ignored_o     (start_ignored),
       .illegal_schedule_i  (illegal_schedule_i),
       .start_o             (start_o),
       .self_test_o         (self_test_o),
@@ -329,7 +331,7 @@ module dtof_apb_registers #(
       .data_o            (event_flags),
       .frame_i           (frame_i),
       .underrun_i        (underrun_i),
-      .start_ignored_i   (start_ignored_i),
+      .start_ignored_i   (start_ignored_i || start_ignored),
       .illegal_schedule_i(illegal_schedule_i),
       .overrun_i         (overrun_i),
       .short_i           (short_i),

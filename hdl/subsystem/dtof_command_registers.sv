@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The commands of CONTROL, and the settings that are valid at once: CONTROL.CONTINUOUS, WATCHDOG, SHOT_SEED, SELF_TEST_SEED and
-// SELF_TEST_EXPECTED. illegal_schedule_i ends continuous mode.
+// SELF_TEST_EXPECTED. illegal_schedule_i ends continuous mode. START and SELF_TEST have no effect while busy_i is high, or with ABORT in
+// the same write; CONTINUOUS takes its value in each write.
 //
 // Latency: a command is a pulse in the clock after its write, and a setting is at its output in that clock.
 // Cost: a flip-flop per command and per bit of a setting, and a multiplexer for reads.
@@ -19,7 +20,9 @@ module dtof_command_registers #(
     input  logic [31:0] mask_i,      // bits that are written
     input  logic [31:0] written_i,   // bits that are written as 1
     output logic [31:0] data_o,      // value of the register at offset_i; 0 at an offset of another one
-    output logic        starts_o,    // START or SELF_TEST is written in this clock
+    input  logic        busy_i,
+    output logic        starts_o,    // START or SELF_TEST is written in this clock, and has an effect
+    output logic        start_ignored_o,  // in the clock after a write of START or SELF_TEST that has no effect
     input  logic        illegal_schedule_i,
     // commands and settings
     output logic        start_o,
@@ -34,17 +37,19 @@ module dtof_command_registers #(
     output logic [31:0] self_test_expected_o
 );
 
-  logic start_q, flush_q, abort_q, continuous_q, shot_reseed_q, controls;
+  logic start_q, start_ignored_q, flush_q, abort_q, continuous_q, shot_reseed_q, controls, chosen;
   logic [23:0] watchdog_q;
   logic [15:0] shot_seed_q;
 
   assign controls = write_i && (offset_i == dtof_registers_pkg::CONTROL);
-  assign starts_o = controls
+  assign chosen = controls
       && (written_i[dtof_registers_pkg::CONTROL_START_LSB] || written_i[dtof_registers_pkg::CONTROL_SELF_TEST_LSB]);
+  assign starts_o = chosen && !busy_i && !written_i[dtof_registers_pkg::CONTROL_ABORT_LSB];
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       start_q <= 1'b0;
+      start_ignored_q <= 1'b0;
       flush_q <= 1'b0;
       abort_q <= 1'b0;
       continuous_q <= 1'b0;
@@ -53,6 +58,7 @@ module dtof_command_registers #(
       shot_reseed_q <= 1'b0;
     end else begin
       start_q <= starts_o;
+      start_ignored_q <= chosen && !starts_o;
       flush_q <= controls && written_i[dtof_registers_pkg::CONTROL_FLUSH_LSB];
       abort_q <= controls && written_i[dtof_registers_pkg::CONTROL_ABORT_LSB];
       shot_reseed_q <= write_i && (offset_i == dtof_registers_pkg::SHOT_SEED) && (mask_i[15:0] != '0);
@@ -75,6 +81,7 @@ module dtof_command_registers #(
   end
 
   assign start_o = start_q;
+  assign start_ignored_o = start_ignored_q;
   assign flush_o = flush_q;
   assign abort_o = abort_q;
   assign continuous_o = continuous_q;

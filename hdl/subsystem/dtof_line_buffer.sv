@@ -12,7 +12,9 @@
 //    buffer may run empty inside an acquisition (underrun_o). The other lines of this acquisition are then "no detection", and the
 //    buffer ignores the lines that the source still delivers for it.
 // 5. SOURCE_WAITS = 0, for a source that cannot wait: s_tready_o is high outside of reset. If there is no room for a line, the buffer
-//    drops the line's whole acquisition (dropped_o), which the array has not begun. SOURCE_WAITS = 1: the source waits.
+//    drops the line's whole acquisition (dropped_o), which the array has not begun. SOURCE_WAITS = 1: the source waits. With
+//    CLOCK_WAITS = 0 the buffer then offers an acquisition at the latest when the lines of ARRAY_WAIT clocks still find room, whatever
+//    release_i is. Otherwise an array that cannot begin in the clock in which the buffer becomes full would lose each acquisition.
 // 6. After expire_i every line is "no detection", without a pause, until done_i. The buffer stores lines that arrive in this time for
 //    the next frame.
 // 7. flush_i, abort_i and expire_i empty the buffer. After abort_i and expire_i the buffer ignores the rest of the acquisition that the
@@ -33,6 +35,7 @@ module dtof_line_buffer #(
     parameter int REGISTERS = 1,            // 1: lines are in registers, 0: in an SRAM
     parameter int CLOCK_WAITS = 1,          // 1: wait_o stops the array's clock
     parameter int SOURCE_WAITS = 1,         // 0: a line without room is lost, with its acquisition
+    parameter int ARRAY_WAIT = 1,           // clocks for which a waiting array lets an offered acquisition wait, at most
     parameter int PARITY = 0,               // 1: each word of an SRAM has a parity bit
     localparam int LEVEL_WIDTH = $clog2(LINES + 2)
 ) (
@@ -86,6 +89,9 @@ module dtof_line_buffer #(
   `DTOF_REQUIRE(g_illegal_lines, LINES >= 2, "dtof_line_buffer: LINES must be at least 2")
   `DTOF_REQUIRE(g_illegal_room, SOURCE_WAITS != 0 || REGISTERS != 0 || LINES >= 3,
                 "dtof_line_buffer: LINES of an SRAM must be at least 3 with SOURCE_WAITS = 0")
+
+  // With so many lines an acquisition is offered at the latest. A buffer for a whole acquisition has its last line before it is full.
+  localparam int LATEST_RELEASE = (SOURCE_WAITS != 0 || LINES >= ACQUISITION_LINES) ? LINES : LINES - ARRAY_WAIT;
 
   // Source side. Each line is stored with a flag: its acquisition ends with it.
 
@@ -270,7 +276,8 @@ module dtof_line_buffer #(
   logic [LEVEL_WIDTH-1:0] lost_stored, lost_here;  // lost lines that were stored; lost lines at the head or at the source
 
   assign begin_allowed = drain_q
-      || (head_here && !discard_q && (CLOCK_WAITS != 0 || complete_q != '0 || 16'(level_o) >= release_i));
+      || (head_here && !discard_q
+          && (CLOCK_WAITS != 0 || complete_q != '0 || 32'(level_o) >= LATEST_RELEASE || 16'(level_o) >= release_i));
   assign line_valid_o = inside_q || begin_allowed;
   assign wait_o = (CLOCK_WAITS != 0) && inside_q && !head_here && !fill_q && !drain_q;
   assign step = line_valid_o && line_ready_i && !wait_o;

@@ -134,6 +134,7 @@ module dtof_line_path #(
       .REGISTERS        ((BUFFER_LINES <= MOST_REGISTERS) ? 1 : 0),
       .CLOCK_WAITS      (CLOCK_WAITS),
       .SOURCE_WAITS     (SOURCE_WAITS),
+      .ARRAY_WAIT       (SLOTS - 1),
       .PARITY           (PARITY)
   ) u_line_buffer (
       .clk_i              (clk_i),

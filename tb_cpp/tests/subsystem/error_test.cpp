@@ -115,6 +115,31 @@ TEST_P(SubsystemErrors, AStartWhileBusyIsIgnoredAndReported) {
   expect_a_right_frame(8);
 }
 
+// The frames behind it have the settings of the last commit: a frame of five acquisitions would not end with
+// these lines.
+TEST_P(SubsystemErrors, AnIgnoredStartCommitsNothing) {
+  if (!bench_.source_waits()) {
+    GTEST_SKIP() << "acquisitions may be dropped";
+  }
+  CounterRandom random = this->random(17);
+  bench_.source().gap_probability = 0.0;
+  FrameSettings settings{.acquisitions = 3, .gate = {0, 0}, .weak_below = 0, .enabled = {}};
+  write_settings(bench_, settings);
+  const std::uint32_t again = DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK;
+  bench_.set(DTOF_CONTROL, again);
+  bench_.set(DTOF_ACQUISITIONS, 5);
+  bench_.set(DTOF_CONTROL, again);
+  EXPECT_EQ(take_errors(), DTOF_ERROR_START_IGNORED_MASK);
+  push_lines(bench_, make_lines(bench_.configuration(), 2 * settings.acquisitions, random));
+  bench_.wait_for_frames(2);
+  bench_.set(DTOF_CONTROL, DTOF_CONTROL_ABORT_MASK | DTOF_CONTROL_FLUSH_MASK | DTOF_CONTROL_START_MASK);
+  bench_.clocks(1000);
+  EXPECT_EQ(bench_.get(DTOF_STATUS) & DTOF_STATUS_BUSY_MASK, 0U);
+  EXPECT_EQ(take_errors(), DTOF_ERROR_START_IGNORED_MASK);
+  EXPECT_EQ(bench_.frames().size(), 3U);
+  expect_a_right_frame(18);
+}
+
 TEST_P(SubsystemErrors, AnIllegalScheduleBeginsNoFrame) {
   const std::uint32_t most = bench_.get(DTOF_RELEASE);
   for (const std::uint32_t release : {0U, most + 1, 0xFFFFU}) {
