@@ -203,6 +203,7 @@ dtof_status dtof_stop(const dtof_device *device);
 dtof_status dtof_flush(const dtof_device *device);
 
 /* Ends the present frame in any state, and continuous mode. After this call the array is ready for another
+ * frame. Up to two words of the aborted frame may still come: take words up to TLAST before those of the next
  * frame. If `source_stopped`, the next line begins an acquisition. Otherwise the subsystem ignores the rest
  * of the acquisition that the source is delivering. DTOF_BUSY if the hardware stays busy. */
 dtof_status dtof_abort(const dtof_device *device, bool source_stopped);

@@ -12,11 +12,11 @@ module timing_bench #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,
     parameter int DIAGRAMS = 1,
     parameter int ACQUISITIONS = 1,
+    parameter int NP = 8,
     parameter int COLUMNS = 2,
     parameter int ROWS = 2
 );
 
-  localparam int NP = 8;
   localparam int SLOTS = 2;
   localparam int LINES = ROWS * SLOTS;  // of an acquisition
   localparam int WIDTH = COLUMNS * NP;

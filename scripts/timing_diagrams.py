@@ -27,7 +27,7 @@ BEGIN = "<!-- frame clocks: written by scripts/timing_diagrams.py -->\n"
 END = "<!-- end of frame clocks -->\n"
 BENCH = "timing_bench"
 BUFFER = "u_subsystem.u_line_path.u_line_buffer"
-FRAME = {"COLUMNS": 8, "ROWS": 16, "ACQUISITIONS": 64}
+FRAME = {"NP": 10, "COLUMNS": 8, "ROWS": 16, "ACQUISITIONS": 64}
 
 
 @dataclass(frozen=True)
@@ -205,7 +205,7 @@ def svg(source: dict) -> str:
 def frame_clocks() -> str:
     """Table with the clocks of a frame for each read-out."""
     table = readouts.load()
-    size = f"{FRAME['COLUMNS']} columns of {FRAME['ROWS']} pixels, {FRAME['ACQUISITIONS']} acquisitions"
+    size = f"{FRAME['COLUMNS']} columns of {FRAME['ROWS']} pixels, {FRAME['ACQUISITIONS']} acquisitions, NP = {FRAME['NP']}"
     lines = [
         f"Clocks of a frame of {size}, with a source that never pauses and a sink that",
         "never waits (`FRAME_CYCLES`, simulated by `make timing-diagrams`):",

@@ -4,7 +4,7 @@
 // decides for one column after the other.
 //
 // Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= acq_num_i; busy_o stays high up to the clock of done_o.
-//   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with A = acq_num and (C, T) = (14, 20). start_i also samples
+//   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with A = acq_num and (C, T) = (14, 30), lean (14, 20). start_i also samples
 //   smooth_i, which switches S1 on, and prior_i: with PRIOR = 1 the candidates used in the last frame then raise their pair sums.
 // TDC stream: as in dtof_array. If PIXELS_PER_SRAM is no multiple of four (of eight if eight coarse bins need a whole word, as in
 //   lean), SLOTS clocks without timestamps pass for each missing row.
