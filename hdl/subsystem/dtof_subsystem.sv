@@ -147,7 +147,7 @@ module dtof_subsystem #(
                 "dtof_subsystem: PIXELS_PER_SRAM times SLOTS must be at most 65535")
   `DTOF_REQUIRE(g_illegal_buffer, BUFFER_LINES >= 2 && BUFFER_LINES <= 65534,
                 "dtof_subsystem: BUFFER_LINES must be 2 to 65534")
-  `DTOF_REQUIRE(g_illegal_wait, SOURCE_WAITS != 0 || BUFFER_LINES >= SLOTS,
+  `DTOF_REQUIRE(g_illegal_wait, SOURCE_WAITS == 1 || BUFFER_LINES >= SLOTS,
                 "dtof_subsystem: BUFFER_LINES must be at least SLOTS with SOURCE_WAITS = 0")
   `DTOF_REQUIRE(g_illegal_clock, CLOCK_WAITS == 0 || CLOCK_WAITS == 1, "dtof_subsystem: CLOCK_WAITS must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_source, SOURCE_WAITS == 0 || SOURCE_WAITS == 1, "dtof_subsystem: SOURCE_WAITS must be 0 or 1")
