@@ -322,7 +322,8 @@ bool same_file(const std::filesystem::path& one, const std::filesystem::path& ot
   const auto place = [&](const std::filesystem::path& path) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
   };
-  return place(one) == place(other) || std::filesystem::equivalent(one, other, error);
+  const std::filesystem::path first = place(one);  // empty if it cannot be resolved
+  return (!first.empty() && first == place(other)) || std::filesystem::equivalent(one, other, error);
 }
 
 /// Throws InputError if a recording would be lost in a result.

@@ -320,7 +320,8 @@ std::filesystem::path folder_beside(const std::filesystem::path& target) {
   }
   const mode_t mask = ::umask(0);
   ::umask(mask);
-  std::filesystem::permissions(name, static_cast<std::filesystem::perms>(0777U & ~mask));
+  std::filesystem::permissions(name,
+                               std::filesystem::perms::all & ~static_cast<std::filesystem::perms>(mask));
   return name;
 }
 

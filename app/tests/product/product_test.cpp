@@ -255,6 +255,8 @@ TEST_F(Product, LeavesWhatIsNotItsOwn) {
   EXPECT_EQ(product("--readout sifh --out empty").exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "empty" / "Makefile"));
   EXPECT_EQ(read_file(folder_ / "empty.partial" / "file"), "mine");
+  EXPECT_EQ(std::filesystem::status(folder_ / "empty").permissions(),
+            std::filesystem::status(folder_ / "empty.partial").permissions());
 }
 
 TEST_F(Product, NamesItsFolderForAShell) {
