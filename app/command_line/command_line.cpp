@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -79,6 +80,19 @@ std::string bad_number_error(const CLI::App& command) {
   return "";
 }
 
+/// The first option that is given more often than it may be; empty if there is none.
+std::string repeated_option_error(const CLI::App& command) {
+  for (const CLI::Option* option : all_options(command)) {
+    const auto most = static_cast<std::size_t>(std::max(option->get_items_expected_max(), 1));
+    const std::size_t times = option->count() / most;
+    if (option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw && times > 1) {
+      return times == 2 ? fmt::format("{} is given twice", option->get_name())
+                        : fmt::format("{} is given {} times", option->get_name(), times);
+    }
+  }
+  return "";
+}
+
 /// The parser's complaint, in the program's own words where it knows more.
 std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
   const auto parsed = app.get_subcommands();
@@ -94,6 +108,11 @@ std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
   }
   if (const std::string number = bad_number_error(command); !number.empty()) {
     return context + number;
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    if (const std::string repeated = repeated_option_error(command); !repeated.empty()) {
+      return context + repeated;
+    }
   }
   if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
     const std::string message = error.what();

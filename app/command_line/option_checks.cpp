@@ -131,6 +131,10 @@ CLI::Validator sensible_acquisitions() {
                 fmt::format("{}: the detections of a frame's columns are held in memory", kMostAcquisitions));
 }
 
+CLI::Validator sensible_frame_rate() { return within(0.001, 1e6, "1000000 frames/s"); }
+
+CLI::Validator sensible_clock_mhz() { return within(0.001, 1e5, "100000 MHz"); }
+
 void check_numbers(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     const std::string type = option->get_type_name();

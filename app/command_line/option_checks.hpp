@@ -23,6 +23,9 @@ std::string reflectivity_reason();
 CLI::Validator sensible_reflectivity();
 /// Accepts a number of acquisitions up to kMostAcquisitions (pipeline/frame_pipeline.hpp).
 CLI::Validator sensible_acquisitions();
+/// Accept frames/s and MHz between those of any sensor and any array.
+CLI::Validator sensible_frame_rate();
+CLI::Validator sensible_clock_mhz();
 
 /// Returns "" if an option of CLI11's type (FLOAT, INT or UINT) can hold `text`, else the reason, e.g. "'abc'
 /// is not a number". Numbers are decimal and finite. (CLI11 alone would read 010 as 8 and -1 as 2^64 - 1.)

@@ -36,6 +36,17 @@ bool is_choice(std::string_view parameter) {
          });
 }
 
+/// Names of a list in commas, each of them once.
+std::vector<std::string> readout_names(const std::string& list) {
+  std::vector<std::string> names = CLI::detail::split(list, ',');
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (std::find(names.begin(), name, *name) != name) {
+      throw InputError(fmt::format("--readout: {} is named twice", *name));
+    }
+  }
+  return names;
+}
+
 /// "--count-width" of COUNT_WIDTH.
 std::string option_of(std::string_view parameter) {
   std::string option = "--";
@@ -53,7 +64,6 @@ void ReadoutOptions::add_to(CLI::App& command) {
       ->add_option(
           "-r,--readout", readouts,
           "read-outs to run: all, thesis (its eight), or names from `dtof list`, separated by commas")
-      ->take_last()
       ->capture_default_str();
   for (const ParameterEntry& entry : parameter_entries()) {
     if (!is_choice(entry.name)) {
@@ -90,7 +100,7 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
   override_with(value("NP"), asked.np);
   override_with(value("SLOTS"), asked.slots);
   std::vector<Readout> chosen;
-  for (const std::string& name : CLI::detail::split(readouts, ',')) {
+  for (const std::string& name : readout_names(readouts)) {
     if (name == "all") {
       chosen.insert(chosen.end(), all.begin(), all.end());
     } else if (name == "thesis") {
@@ -146,9 +156,11 @@ void add_sensor_option(CLI::App& command, std::string& sensor) {
 
 void add_budget_options(CLI::App& command, double& frame_rate, double& clock_mhz) {
   command.add_option("--frame-rate", frame_rate, "frames/s that a frame has to fit")
-      ->check(above_zero())
+      ->check(sensible_frame_rate())
       ->capture_default_str();
-  command.add_option("--clock-mhz", clock_mhz, "the clock")->check(above_zero())->capture_default_str();
+  command.add_option("--clock-mhz", clock_mhz, "the clock")
+      ->check(sensible_clock_mhz())
+      ->capture_default_str();
 }
 
 void add_study_options(CLI::App& command, std::uint64_t& seed, int& threads, std::string& out) {
@@ -175,10 +187,8 @@ void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsyst
       ->capture_default_str();
   group->add_flag("--verify", settings.verify,
                   "with an engine that is hardware: compare every pixel with the model");
-  group
-      ->add_option("--trace", settings.trace,
-                   "with --engine rtl and one read-out, in dtof-wave: waveform file (FST)")
-      ->take_last();
+  group->add_option("--trace", settings.trace,
+                    "with --engine rtl and one read-out, in dtof-wave: waveform file (FST)");
   group->add_option("-s,--seed", settings.seed, "seed of everything random")->capture_default_str();
   group->add_option("-j,--threads", settings.threads, "threads, 0 = all processors")
       ->check(CLI::Range(0, 1024))
@@ -186,7 +196,6 @@ void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsyst
   group
       ->add_option("--columns", settings.columns,
                    "columns to read out: all, or e.g. 0-9,20; others cost nothing")
-      ->take_last()
       ->capture_default_str();
   group
       ->add_option(
@@ -194,7 +203,6 @@ void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsyst
           "rows to read out: all, or one range, e.g. 40-79: with --columns a region of interest; others\n"
           "are off and cost nothing. poolPointer's array has at least 160 rows unless --own-rows is\n"
           "given; those that are off, and those beyond the sensor's, are dark neighbours")
-      ->take_last()
       ->capture_default_str();
   group->add_flag("--own-rows", settings.own_rows,
                   "poolPointer's array has the sensor's rows alone, as a chip for the sensor would");

@@ -137,7 +137,7 @@ void add_design_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   add_budget_options(*command, options->frame_rate, options->clock_mhz);
   command->add_option("--frames", options->frames, "frames that compare the read-outs")
-      ->check(within(2, 1000, "to 1000: an interval needs two"))
+      ->check(within(2, 1000, "1000: an interval needs two"))
       ->capture_default_str();
   command->add_flag("--quick", options->quick,
                     "a twentieth of the pixels, wider intervals, no P_d and P_fa, no rivals");

@@ -12,6 +12,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <system_error>
 #include <vector>
 
 #include "command_line/option_checks.hpp"
@@ -224,8 +226,11 @@ nlohmann::ordered_json json_readouts(const std::vector<MeasuredFrame>& frames,
                                       {"parameters", frame.parameters.to_string()},
                                       {"frames", frame.frames},
                                       {"precision_reached", frame.precision_reached},
-                                      {"cycles", frame.run.cycles},
+                                      {"cycles", nullptr},
                                       {"pixels", frame.maps.figures.errors.count()}};
+    if (frame.run.cycles > 0) {  // the models have none
+      readout["cycles"] = frame.run.cycles;
+    }
     if (frame.maps.figures.errors.count() > 0) {
       const ErrorSummary summary = frame.maps.figures.errors.summary();
       readout["rmse_m"] = summary.rmse_m;
@@ -300,6 +305,43 @@ std::vector<MeasuredFrame> measure_frames(const FramePipeline& pipeline,
   return frames;
 }
 
+/// Names of the files that the command writes into its folder.
+std::vector<std::string> output_names(std::span<const ReadoutParameters> readouts) {
+  std::vector<std::string> names = {"overview.png", "errors.png", "summary.csv", "summary.md"};
+  for (const ReadoutParameters& parameters : readouts) {
+    for (const char* end : {".csv", "_depth_mm.png", ".ply", "_depth.png", "_error.png"}) {
+      names.push_back(fmt::format("{}{}", readout_name(parameters.readout), end));
+    }
+  }
+  return names;
+}
+
+/// True if both are one file, whether it exists or not.
+bool same_file(const std::filesystem::path& one, const std::filesystem::path& other) {
+  std::error_code error;
+  const auto place = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
+  };
+  const std::filesystem::path first = place(one);  // empty if it cannot be resolved
+  return (!first.empty() && first == place(other)) || std::filesystem::equivalent(one, other, error);
+}
+
+/// Throws InputError if a recording would be lost in a result.
+void check_record(const FrameOptions& options, std::span<const ReadoutParameters> readouts) {
+  if (options.record.empty()) {
+    return;
+  }
+  for (const std::string& name : output_names(readouts)) {
+    if (same_file(options.record, std::filesystem::path(options.out) / name)) {
+      throw InputError(
+          fmt::format("--record: {} is a result of the command; choose another file", options.record));
+    }
+  }
+  if (!options.run.trace.empty() && same_file(options.record, options.run.trace)) {
+    throw InputError(fmt::format("--record and --trace are one file, {}", options.record));
+  }
+}
+
 /// Throws InputError for options of which each excludes the other.
 void check_together(const FrameOptions& options, std::size_t readouts) {
   if (options.host_filter && options.precision_percent) {
@@ -318,6 +360,7 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
   std::vector<ReadoutParameters> readouts =
       options.readout.parameters(options.run.readouts(), settled_sensor(options));
   check_together(options, readouts.size());
+  check_record(options, readouts);
   const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
   options.scene.check_distances(sensor);
   check_frame_memory(sensor, options.scene.array_rows.value_or(sensor.rows));

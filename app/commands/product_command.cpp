@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "command_line/shell_words.hpp"
 #include "commands/commands.hpp"
 #include "commands/flow_measurement.hpp"
 #include "commands/json_result.hpp"
@@ -24,7 +27,7 @@ struct ProductOptions {
   std::string scene = "room";
   double klux = 14.0;
   std::uint64_t seed = 1;
-  std::uint32_t vector_acquisitions = 0;
+  std::optional<std::uint32_t> vector_acquisitions;
   double frame_rate = 30.0;
   double clock_mhz = 330.0;
   bool self_test = false;
@@ -39,16 +42,28 @@ struct ProductOptions {
 /// The command with the same name for every folder.
 std::string command_of(const ProductOptions& options) {
   std::string command = options.command_line;
+  const std::string out = shell_word(options.out);
   for (const std::string& option : {std::string("--out "), std::string("--out="), std::string("-o ")}) {
-    const std::size_t at = command.rfind(option + options.out);
+    const std::size_t at = command.rfind(option + out);
     if (at != std::string::npos) {
-      return command.replace(at + option.size(), options.out.size(), "chip");
+      return command.replace(at + option.size(), out.size(), "chip");
     }
   }
   return command;
 }
 
+/// Throws InputError for acquisitions of the vectors that the sensor does not have.
+void check_vector_acquisitions(const ProductOptions& options, const SensorModel& sensor) {
+  const std::uint32_t asked = options.vector_acquisitions.value_or(1);
+  if (asked < 1 || asked > sensor.acquisitions) {
+    throw InputError(
+        fmt::format("product: --vector-acquisitions is {}, must be 1 to the sensor's {} acquisitions", asked,
+                    sensor.acquisitions));
+  }
+}
+
 void run_product_command(const ProductOptions& options, JsonResult& result) {
+  check_product_folder(options.out);  // before the work
   const DescribedSensor described = find_described_sensor(options.sensor);
   const std::vector<ReadoutParameters> readouts = options.readout.parameters(kRtlReadouts, described.model);
   if (readouts.size() != 1) {
@@ -58,6 +73,7 @@ void run_product_command(const ProductOptions& options, JsonResult& result) {
   if (!has_rtl(readouts.front().readout)) {
     throw InputError(fmt::format("product: there is no RTL of {}", readout_name(readouts.front().readout)));
   }
+  check_vector_acquisitions(options, described.model);
   ProductRequest request{.sensor_text = described.text,
                          .sensor = described.model,
                          .parameters = readouts.front(),
@@ -66,7 +82,7 @@ void run_product_command(const ProductOptions& options, JsonResult& result) {
                          .scene = parse_scene(options.scene),
                          .klux = options.klux,
                          .seed = options.seed,
-                         .vector_acquisitions = options.vector_acquisitions,
+                         .vector_acquisitions = options.vector_acquisitions.value_or(0),
                          .self_test = options.self_test,
                          .budget = {.clock_hz = options.clock_mhz * 1e6, .frames_per_s = options.frame_rate},
                          .command = command_of(options),
@@ -84,7 +100,7 @@ void run_product_command(const ProductOptions& options, JsonResult& result) {
   result["parameters"] = request.parameters.to_string();
   result.add_folder(options.out);
   fmt::print("{}\n{} files in {}; `make -C {}` runs and checks them.\n", product_fit(request).sentence,
-             files.size(), options.out, options.out);
+             files.size(), options.out, shell_word(options.out));
 }
 
 }  // namespace

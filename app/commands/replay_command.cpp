@@ -462,9 +462,11 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
       "true distances: a depth map (PNG of 8 or 16 bits, PFM or NPY) of the recording's or the\n"
       "region's size; errors are then in the summary");
   add_truth_scale_option(*command, options->truth_scale);
-  command->add_option("--offset", options->offset_mm,
-                      "mm to subtract from every distance: the recording's zero (default: each\n"
-                      "read-out's median difference to truth; 299.8 for a stream of preset thesis)");
+  command
+      ->add_option("--offset", options->offset_mm,
+                   "mm to subtract from every distance: the recording's zero (default: each\n"
+                   "read-out's median difference to truth; 299.8 for a stream of preset thesis)")
+      ->check(within(-1e8, 1e8, "100000000 mm, 100 km"));
   options->readout.add_to(*command);
   add_run_options(*command, options->run, true);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();

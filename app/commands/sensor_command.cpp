@@ -114,9 +114,9 @@ void add_sensor_command(CLI::App& app, const std::string& command_line) {
                           ->add_option("--frame-rate", options->frame_rate,
                                        "frames/s: says of each read-out whether its frame fits the clock, "
                                        "and otherwise which change makes it fit")
-                          ->check(above_zero());
+                          ->check(sensible_frame_rate());
   command->add_option("--clock-mhz", options->clock_mhz, "the array's clock")
-      ->check(above_zero())
+      ->check(sensible_clock_mhz())
       ->needs(rate)
       ->capture_default_str();
   JsonResult::add_to(*command, options->json);

@@ -2,10 +2,14 @@
 #include "product/product.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <string_view>
 #include <system_error>
@@ -16,6 +20,7 @@
 #include "dtof/core/folded_source.hpp"
 #include "dtof/design/array_memories.hpp"
 #include "dtof/io/atomic_file.hpp"
+#include "dtof/io/output_folder.hpp"
 #include "dtof/photon/photon_source.hpp"
 #include "product/product_driver.hpp"
 #include "product/product_report.hpp"
@@ -305,6 +310,21 @@ std::uint32_t vector_acquisitions(const ProductRequest& request) {
   return std::min(most, sensor.acquisitions);
 }
 
+/// A new folder beside `target`, of a name that nothing else has, with the permissions of any new folder.
+std::filesystem::path folder_beside(const std::filesystem::path& target) {
+  create_output_folder(target.parent_path());
+  std::string name = (target.parent_path() / fmt::format(".{}.XXXXXX", target.filename().string())).string();
+  if (::mkdtemp(name.data()) == nullptr) {
+    throw InputError(
+        fmt::format("{}: cannot write: {}", target.string(), std::generic_category().message(errno)));
+  }
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  std::filesystem::permissions(name,
+                               std::filesystem::perms::all & ~static_cast<std::filesystem::perms>(mask));
+  return name;
+}
+
 }  // namespace
 
 RtlConfiguration product_array(const ProductRequest& request) {
@@ -385,23 +405,33 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
   return files;
 }
 
-void write_product(const std::map<std::string, std::string>& files, const std::filesystem::path& folder) {
+void check_product_folder(const std::filesystem::path& folder) {
   std::error_code error;
-  if (std::filesystem::exists(folder, error) && !std::filesystem::is_empty(folder, error)) {
+  const auto status = std::filesystem::symlink_status(folder.has_filename() ? folder : folder.parent_path(),
+                                                      error);  // "link/" would be the link's target
+  if (!std::filesystem::exists(status)) {
+    return;
+  }
+  if (!std::filesystem::is_directory(status)) {
+    throw InputError(fmt::format("product: {} is there and no folder; choose another name", folder.string()));
+  }
+  if (!std::filesystem::is_empty(folder, error)) {
     throw InputError(
         fmt::format("product: {} is there and not empty; choose another folder", folder.string()));
   }
+}
+
+void write_product(const std::map<std::string, std::string>& files, const std::filesystem::path& folder) {
+  check_product_folder(folder);
   std::filesystem::path target = std::filesystem::absolute(folder);
   if (!target.has_filename()) {
     target = target.parent_path();
   }
-  const std::filesystem::path partial = target.string() + ".partial";
+  const std::filesystem::path partial = folder_beside(target);
+  std::error_code error;
   const auto fail = [&](const std::filesystem::path& path) {
-    const std::string reason = error.message();
-    std::filesystem::remove_all(partial, error);
-    throw InputError(fmt::format("{}: cannot write: {}", path.string(), reason));
+    throw InputError(fmt::format("{}: cannot write: {}", path.string(), error.message()));
   };
-  std::filesystem::remove_all(partial, error);
   try {
     for (const auto& [path, text] : files) {
       std::filesystem::create_directories((partial / path).parent_path(), error);
@@ -410,14 +440,13 @@ void write_product(const std::map<std::string, std::string>& files, const std::f
       }
       write_file(partial / path, text);
     }
+    std::filesystem::rename(partial, target, error);  // takes the place of an empty folder, of nothing else
+    if (error) {
+      fail(target);
+    }
   } catch (...) {
     std::filesystem::remove_all(partial, error);
     throw;
-  }
-  std::filesystem::remove(target, error);  // an empty one
-  std::filesystem::rename(partial, target, error);
-  if (error) {
-    fail(target);
   }
 }
 

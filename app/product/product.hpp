@@ -46,6 +46,9 @@ FrameFit product_fit(const ProductRequest& request);
 /// not fit the clock.
 std::map<std::string, std::string> product_files(const ProductRequest& request);
 
+/// Throws InputError if `folder` exists and is anything but an empty folder; a symbolic link is not one.
+void check_product_folder(const std::filesystem::path& folder);
+
 /// Writes the files into `folder`, which must be empty or not exist: all of them or none.
 void write_product(const std::map<std::string, std::string>& files, const std::filesystem::path& folder);
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,15 +23,13 @@ BenchSettings bench_of(const ProductRequest& request) {
   return {.sensor = request.sensor, .seed = request.seed, .threads = request.threads};
 }
 
-/// As many frames as `dtof design` takes, of so many pixels that a large array takes seconds.
+/// As many frames as `dtof design` reads, with so few pixels of a large array that the bench takes seconds.
 BenchEffort effort_of(const BenchSettings& bench, const ReadoutParameters& readout) {
   constexpr int kFrames = 4;
-  constexpr double kFewestPixels = 4000.0;
   constexpr double kWork = 1e9;  // pixels x acquisitions
   const auto scenes = static_cast<double>(bench.scenes.size());
   const SensorModel& sensor = bench.sensor;
-  const int frames =
-      std::max(kFrames, static_cast<int>(std::ceil(kFewestPixels / (scenes * sensor.rows * sensor.columns))));
+  const int frames = bench_frames(bench, kFrames);
   const double each = kWork / (frames * scenes * static_cast<double>(bench.klux.size()));
   return {.pixels = each / std::max(sensor.acquisitions, 1U),
           .frames = frames,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <limits>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,12 +23,16 @@
 #include "on_demand/on_demand.hpp"
 #include "rtl/error.hpp"
 #include "rtl/run_frame.hpp"
+#include "run/reproduction.hpp"
 #include "scoreboard/scoreboard.hpp"
 #include "subsystem/registry.hpp"
 #include "subsystem/subsystem_frame.hpp"
 
 namespace dtof {
 namespace {
+
+/// Options that the scoreboard adds to a command with values of its own.
+constexpr std::array<std::string_view, 4> kOfReproduction = {"--readout", "-r", "--columns", "--trace"};
 
 // Throws RtlError that describes every pixel in which the frame differs from the model's.
 void verify_subsystem(const StreamSource& source, const ReadoutParameters& parameters,
@@ -153,9 +159,11 @@ ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& para
                             .pixels_per_sram);
   finish(frame.results);
   if (options.verify) {
-    const std::string difference = check_source_frame(
-        *array.source, parameters, columns, frame,
-        {.threads = options.threads, .first_row = array.first, .seed = options.seed, .command = command});
+    const std::string difference = check_source_frame(*array.source, parameters, columns, frame,
+                                                      {.threads = options.threads,
+                                                       .first_row = array.first,
+                                                       .seed = options.seed,
+                                                       .command = without_options(command, kOfReproduction)});
     if (!difference.empty()) {
       throw RtlError(difference);
     }

@@ -33,8 +33,8 @@ bool reads_samples(Readout readout, const RunSettings& options);
 /// Reads out a region of `source` with the engine of `options`; the engine does not change results. A pool
 /// read-out's array has the sensor's rows, at least the 160 of the compiled arrays; rows outside the region
 /// are dark. With --verify the hardware's pixels are compared with the model's; a difference throws RtlError
-/// that describes it. `command` is the command line that reproduces the run, without --columns and --trace.
-/// Throws InputError for a region outside the source.
+/// that describes it. `command` is the command line of the run. Throws InputError for a region outside the
+/// source.
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
                        const RunSettings& options, const Region& region, const std::string& command);
 

@@ -297,7 +297,6 @@ void add_rivals_command(CLI::App& app, const std::string& command_line) {
       ->check(sensible_klux())
       ->capture_default_str();
   command->add_option("-r,--readout", options->readouts, "names from `dtof list`, separated by commas")
-      ->take_last()
       ->capture_default_str();
   std::vector<std::string_view> names;
   for (const RivalEntry& entry : all_rivals()) {

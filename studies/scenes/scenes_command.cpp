@@ -293,7 +293,6 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       ->check(sensible_klux())
       ->capture_default_str();
   command->add_option("-r,--readout", options->readouts, "names from `dtof list`, separated by commas")
-      ->take_last()
       ->capture_default_str();
   command->add_option("--variant", options->variants,
                       "also READOUT:PARAMETER=NUMBER,...\nparameters: " + variant_parameters_help());

@@ -99,7 +99,6 @@ void add_sensor_effects_command(CLI::App& app, const std::string& command_line) 
   command
       ->add_option("-r,--readout", options->readouts.readouts,
                    "read-outs: all (those of the thesis), or names from `dtof list`, separated by commas")
-      ->take_last()
       ->capture_default_str();
   command->add_option("--frames", options->frames, "frames at each distance and light")
       ->check(CLI::Range(4, 1'000'000))

@@ -58,6 +58,16 @@ TEST(AboveZero, NamesTheNumber) {
   EXPECT_EQ(error(not_negative(), "-2"), "-2 is negative");
 }
 
+TEST(SensibleBudget, HasEnds) {
+  const auto error = [](const CLI::Validator& validator, std::string text) { return validator(text); };
+  for (const char* rate : {"0.001", "30", "1000000"}) {
+    EXPECT_EQ(error(sensible_frame_rate(), rate), "");
+  }
+  EXPECT_EQ(error(sensible_frame_rate(), "1e-300"), "1e-300 is not within 0.001 to 1000000 frames/s");
+  EXPECT_EQ(error(sensible_clock_mhz(), "100000"), "");
+  EXPECT_EQ(error(sensible_clock_mhz(), "1e308"), "1e308 is not within 0.001 to 100000 MHz");
+}
+
 TEST(CheckNumbers, MinusZeroIsZero) {
   CLI::App app;
   double real = 1.0;

@@ -89,5 +89,11 @@ TEST(ReadoutOptions, AParameterThatNoChosenReadOutHasIsRefused) {
   EXPECT_EQ(parse("--readout sifh,ezpointer --pointer-step 2").back().pointer_step, 2);
 }
 
+TEST(ReadoutOptions, AReadOutThatIsNamedTwiceIsRefused) {
+  EXPECT_THAT([] { (void)parse("--readout sifh,ezpointer,sifh"); },
+              ThrowsMessage<InputError>(HasSubstr("--readout: sifh is named twice")));
+  EXPECT_EQ(parse("--readout thesis,sifh").size(), 8U);
+}
+
 }  // namespace
 }  // namespace dtof

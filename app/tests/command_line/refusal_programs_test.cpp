@@ -83,6 +83,32 @@ TEST_F(Programs, RefusesBadFlagsAndPhysics) {
   expect_refused("frame --depth /dev/zero --out out", "/dev/zero: cannot read: it is a device");
 }
 
+TEST_F(Programs, RefusesAnOptionThatIsGivenTwice) {
+  expect_refused("frame --columns 0 --columns 1 --out out", "frame: --columns is given twice");
+  expect_refused("frame --rows 0-3 --rows 4-5 --out out", "frame: --rows is given twice");
+  expect_refused("frame -r ezpointer --readout=sifh --out out", "frame: --readout is given twice");
+  expect_refused("frame --klux 1 --klux 2 -k 3 --out out", "frame: --klux is given 3 times");
+  expect_refused("frame --gate 1 2 --gate 3 4 --out out", "frame: --gate is given twice");
+  expect_refused("frame --np 9 --np 8 --out out", "frame: --np is given twice");
+  expect_refused("scenes -r sifh -r fifh --out out", "scenes: --readout is given twice");
+  expect_refused("frame --readout ezpointer,ezpointer --out out", "--readout: ezpointer is named twice");
+}
+
+TEST_F(Programs, RefusesARecordingInPlaceOfAResult) {
+  std::filesystem::create_directories(path("there"));
+  std::filesystem::create_directory_symlink("there", path("link"));
+  const std::string small = fmt::format("frame -r ezpointer {}", kSmallScene);
+  const std::string reason = " is a result of the command; choose another file";
+  for (const std::string name : {"out/ezpointer.csv", "out/summary.csv", "./out/../out/errors.png"}) {
+    expect_refused(fmt::format("{} --out out --record {}", small, name), "--record: " + name + reason);
+  }
+  expect_refused(fmt::format("{} --out link --record there/summary.md", small), reason);
+  expect_refused(fmt::format("{} --engine rtl --trace a.fst --out out --record ./a.fst", small),
+                 "--record and --trace are one file");
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+  EXPECT_EQ(dtof(fmt::format("{} --out there --record there/stream.csv", small)).exit_code, 0);
+}
+
 TEST_F(Programs, RefusesBadImages) {
   // The smallest possible 8-bit greyscale PNG is not a depth image.
   const std::string png8(
@@ -143,6 +169,14 @@ TEST_F(Programs, WhatIsNoNumberIsSaidSo) {
 }
 
 TEST_F(Programs, NonsenseIsRefusedWithAReason) {
+  for (const std::string command : {"sensor", "design", "product -r sifh"}) {
+    expect_refused(command + " --frame-rate 1e-300",
+                   "--frame-rate: 1e-300 is not within 0.001 to 1000000 frames/s");
+    expect_refused(command + " --frame-rate 30 --clock-mhz 1e308",
+                   "--clock-mhz: 1e308 is not within 0.001 to 100000 MHz");
+  }
+  expect_refused("design --frames 1", "--frames: 1 is not within 2 to 1000: an interval needs two");
+  expect_refused("replay a.csv --offset 1e300", "--offset: 1e300 is not within -100000000 to 100000000 mm");
   expect_refused("frame --klux 1e30",
                  "1e30 is not within 0 to 200 klux: the brightest sunlight is about 130");
   expect_refused("accuracy --klux 14 300", "300 is not within 0 to 200 klux");

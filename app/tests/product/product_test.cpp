@@ -27,6 +27,7 @@ namespace {
 using test::Outcome;
 using test::run_shell;
 
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -208,13 +209,15 @@ TEST_F(Product, WritesNothingIfAnythingIsWrong) {
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_THAT(outcome.output, HasSubstr(reason));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "chip"));
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "chip.partial"));
   };
   refused("--readout sifh,fifh", "a product has one");
   refused("--readout sifh --nb 12", "NB must be 1 to NP, not 12");
   refused("--readout sifh --frame-rate 300000", "so that the frame does not fit. What would, one of: ");
   refused("--readout sifh --measure", "run the command in the project's folder");
   refused("--readout nothing", "unknown read-out");
+  refused("--readout sifh --vector-acquisitions 0",
+          "--vector-acquisitions is 0, must be 1 to the sensor's 60 acquisitions");
+  refused("--readout sifh --vector-acquisitions 61", "--vector-acquisitions is 61, must be 1 to");
   std::filesystem::create_directories(folder_ / "full");
   std::ofstream(folder_ / "full" / "file") << "mine";
   const Outcome there = product("--readout sifh --out full");
@@ -226,8 +229,41 @@ TEST_F(Product, WritesNothingIfAnythingIsWrong) {
       "trap '' XFSZ; ulimit -f 20; {} product --sensor small.toml --readout sifh --out chip", DTOF_PROGRAM));
   EXPECT_NE(full.exit_code, 0);
   EXPECT_THAT(full.output, HasSubstr("cannot write: File too large"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "chip"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "chip.partial"));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    EXPECT_THAT(entry.path().filename().string(), AnyOf("small.toml", "full"));
+  }
+}
+
+TEST_F(Product, LeavesWhatIsNotItsOwn) {
+  std::ofstream(folder_ / "file").close();
+  std::filesystem::create_directories(folder_ / "empty");
+  std::filesystem::create_symlink("file", folder_ / "to_file");
+  std::filesystem::create_symlink("empty", folder_ / "to_folder");
+  std::filesystem::create_symlink("nowhere", folder_ / "to_nothing");
+  for (const std::string name : {"file", "to_file", "to_folder", "to_folder/", "to_nothing"}) {
+    const Outcome outcome = product("--readout sifh --out " + name);
+    EXPECT_EQ(outcome.exit_code, 1) << name;
+    EXPECT_EQ(outcome.output,
+              "dtof: error: product: " + name + " is there and no folder; choose another name\n");
+  }
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "file"));
+  for (const char* link : {"to_file", "to_folder", "to_nothing"}) {
+    EXPECT_TRUE(std::filesystem::is_symlink(folder_ / link)) << link;
+  }
+  std::filesystem::create_directories(folder_ / "empty.partial");
+  std::ofstream(folder_ / "empty.partial" / "file") << "mine";
+  EXPECT_EQ(product("--readout sifh --out empty").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "empty" / "Makefile"));
+  EXPECT_EQ(read_file(folder_ / "empty.partial" / "file"), "mine");
+  EXPECT_EQ(std::filesystem::status(folder_ / "empty").permissions(),
+            std::filesystem::status(folder_ / "empty.partial").permissions());
+}
+
+TEST_F(Product, NamesItsFolderForAShell) {
+  const Outcome made = product("--readout sifh --out 'p 2/x'");
+  EXPECT_EQ(made.exit_code, 0);
+  EXPECT_THAT(made.output, HasSubstr("`make -C 'p 2/x'` runs"));
+  EXPECT_THAT(read_file(folder_ / "p 2/x/README.md"), HasSubstr("--out chip"));
 }
 
 TEST_F(Product, TheSensorCommandSaysWhichFramesFit) {

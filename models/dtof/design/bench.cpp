@@ -170,6 +170,13 @@ TargetMap scaled_scene(Scene scene, const SensorModel& sensor, std::uint64_t see
   return targets;
 }
 
+int bench_frames(const BenchSettings& settings, int frames) {
+  constexpr double kFewestPixels = 4000.0;
+  const double of_a_frame = static_cast<double>(settings.sensor.rows) * settings.sensor.columns *
+                            static_cast<double>(settings.scenes.size());
+  return std::max(frames, static_cast<int>(std::ceil(kFewestPixels / of_a_frame)));
+}
+
 int bench_engine_columns(std::span<const ReadoutParameters> readouts) {
   int fewest = 0;
   for (const ReadoutParameters& one : readouts) {

@@ -63,6 +63,10 @@ struct BenchEffort {
   int engine_columns = 1;  ///< pixels are those of whole engines of so many columns
 };
 
+/// Returns the number of frames to read: `frames`, or more if the frames of all scenes would have fewer than
+/// 4,000 pixels together, because the share of so few pixels does not show a per cent.
+int bench_frames(const BenchSettings& settings, int frames);
+
 /// Columns of an engine for BenchEffort: the fewest that the pool read-outs among these have by default; 1
 /// without any.
 int bench_engine_columns(std::span<const ReadoutParameters> readouts);

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -55,15 +54,6 @@ double pixels_of(double work, std::size_t number, const DesignRequest& request, 
   const BenchSettings& bench = request.bench;
   return work / bench.sensor.acquisitions / static_cast<double>(number) /
          static_cast<double>(bench.klux.size() * bench.scenes.size()) / frames;
-}
-
-/// As many as were asked for, and of a small array so many that their pixels show a per cent.
-int frames_of(const DesignRequest& request) {
-  constexpr double kFewestPixels = 4000.0;
-  const SensorModel& sensor = request.bench.sensor;
-  const double of_a_frame =
-      static_cast<double>(sensor.rows) * sensor.columns * static_cast<double>(request.bench.scenes.size());
-  return std::max(request.frames, static_cast<int>(std::ceil(kFewestPixels / of_a_frame)));
 }
 
 std::vector<ReadoutParameters> parameters_of(const std::vector<DesignOption>& options,
@@ -265,7 +255,7 @@ DesignResult run_design(const DesignRequest& request) {
   const std::vector<DesignCandidate> candidates = possible_candidates(request);
   DesignResult result;
   result.searched = candidates.size();
-  result.frames = frames_of(request);
+  result.frames = bench_frames(request.bench, request.frames);
   const std::vector<LimitChange> changes = limit_changes(request.limits);
   std::set<std::size_t> wanted = worth_reading(candidates, request.limits);
   for (const LimitChange& change : changes) {

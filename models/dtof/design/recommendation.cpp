@@ -55,15 +55,27 @@ std::vector<std::size_t> of_readout(std::span<const DesignOption> options,
   return found;
 }
 
-/// Share of `one` less good_share of the share of `other`, over the frames that both have.
+/// Largest share of errors that is as good as another share: ratio * share + difference.
+struct GoodLimit {
+  double ratio;
+  double difference;
+
+  [[nodiscard]] double of(double share) const { return ratio * share + difference; }
+};
+
+GoodLimit good_limit(double smallest) {
+  return kGoodRatio * smallest > smallest + kGoodDifference ? GoodLimit{kGoodRatio, 0.0}
+                                                            : GoodLimit{1.0, kGoodDifference};
+}
+
+/// Share of `one` less the limit of the share of `other`, over the frames that both have.
 Interval excess(const DesignOption& one, const DesignOption& other) {
   const std::vector<double>& ones = one.best_known().worst().above_3_of_frames;
   const std::vector<double>& others = other.best_known().worst().above_3_of_frames;
-  const double share = share_of(other);
-  const bool by_ratio = kGoodRatio * share > share + kGoodDifference;
+  const GoodLimit limit = good_limit(share_of(other));
   std::vector<double> differences;
   for (std::size_t i = 0; i < std::min(ones.size(), others.size()); ++i) {
-    differences.push_back(ones[i] - (by_ratio ? kGoodRatio * others[i] : others[i] + kGoodDifference));
+    differences.push_back(ones[i] - limit.of(others[i]));
   }
   return estimate_mean(differences).interval;
 }
@@ -94,7 +106,7 @@ std::vector<Need> needs(const DesignLimits& limits) {
 
 }  // namespace
 
-double good_share(double smallest) { return std::max(kGoodRatio * smallest, smallest + kGoodDifference); }
+double good_share(double smallest) { return good_limit(smallest).of(smallest); }
 
 std::vector<LimitChange> limit_changes(const DesignLimits& limits) {
   std::vector<LimitChange> changes;

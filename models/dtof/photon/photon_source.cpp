@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/progress.hpp"
 #include "dtof/core/random.hpp"
 #include "dtof/photon/physics.hpp"
 
@@ -360,6 +360,7 @@ ColumnStream PhotonSource::combined_column(int index, RowRange range) const {
 
   std::vector<std::vector<Events>> events(static_cast<std::size_t>(last - first));
   for (int column = first; column < last; ++column) {
+    check_interruption();
     for (int row = first_row; row < last_row; ++row) {
       const auto drawn = sample(sampler, column, row);
       events[static_cast<std::size_t>(column - first)].emplace_back(drawn.begin(), drawn.end());
@@ -399,12 +400,10 @@ ColumnStream PhotonSource::combined_column(int index, RowRange range) const {
       for (int row = row_begin; row < row_end; ++row) {
         const Events filtered = coincidence ? coincident_events(column, row) : Events();
         const Events& own = coincidence ? filtered : pixel(column, row);
-        Events both;
-        both.reserve(block.size() + own.size());
-        std::merge(block.begin(), block.end(), own.begin(), own.end(), std::back_inserter(both));
-        block = std::move(both);
+        block.insert(block.end(), own.begin(), own.end());
       }
     }
+    std::ranges::sort(block);
     for (int row = std::max(row_begin, range.first); row < std::min(row_end, range_end); ++row) {
       tdc.append(block, pixel_number(index, row), stream);
     }

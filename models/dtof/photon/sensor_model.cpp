@@ -103,6 +103,11 @@ void SensorModel::validate() const {
     throw InputError(
         fmt::format("sensor model: the array must have at least 1 x 1 pixels, not {} x {}", columns, rows));
   }
+  if (binning > std::max(columns, rows)) {
+    throw InputError(
+        fmt::format("sensor model: binning must be at most {}, the array has {} x {} pixels, not {}",
+                    std::max(columns, rows), columns, rows, binning));
+  }
   // Written so that a NaN fails.
   if (!(field_of_view_deg > 0.0 && field_of_view_deg <= 180.0)) {
     throw InputError(fmt::format("sensor model: the field of view must be above 0 to 180 degrees, not {}",

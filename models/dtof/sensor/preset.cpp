@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -21,6 +22,19 @@ namespace {
 
 bool is_preset(std::string_view name) {
   return std::ranges::count(preset_texts(), name, &PresetText::name) > 0;
+}
+
+/// True if the sensor's name, which may be a file's, ends with this condition, or with it and others.
+bool has_condition(std::string_view sensor, std::string_view condition) {
+  for (std::size_t plus = sensor.rfind('+');
+       plus != std::string_view::npos && !std::filesystem::exists(std::filesystem::path(sensor));
+       plus = sensor.rfind('+')) {
+    if (sensor.substr(plus + 1) == condition) {
+      return true;
+    }
+    sensor = sensor.substr(0, plus);
+  }
+  return false;
 }
 
 }  // namespace
@@ -54,8 +68,12 @@ DescribedSensor find_described_sensor(std::string_view name_or_file) {
   const std::filesystem::path path(name_or_file);
   if (const auto plus = name_or_file.rfind('+');
       plus != std::string_view::npos && !std::filesystem::exists(path)) {
+    const std::string_view condition = name_or_file.substr(plus + 1);
+    if (has_condition(name_or_file.substr(0, plus), condition)) {
+      throw InputError(fmt::format("{}: condition '{}' is named twice", name_or_file, condition));
+    }
     return {fmt::format("# {}: no file, but a sensor under conditions\n", name_or_file),
-            under_condition(find_sensor(name_or_file.substr(0, plus)), name_or_file.substr(plus + 1))};
+            under_condition(find_sensor(name_or_file.substr(0, plus)), condition)};
   }
   if (!path.has_extension() && !std::filesystem::exists(path)) {
     throw InputError(

@@ -40,6 +40,19 @@ TEST(Bench, DistancesAreInProportionToTheRange) {
   EXPECT_NEAR(thesis, farthest(make_scene(Scene::kRoom, {.columns = 36, .rows = 16})), 1e-9);
 }
 
+TEST(Bench, SmallArraysAreReadInMoreFrames) {
+  BenchSettings settings;
+  settings.sensor = small_sensor();  // 576 pixels
+  settings.scenes = {Scene::kRoom, Scene::kPoles};
+  EXPECT_EQ(bench_frames(settings, 2), 4);
+  EXPECT_EQ(bench_frames(settings, 6), 6);
+  settings.sensor.columns = 1;
+  settings.sensor.rows = 1;
+  EXPECT_EQ(bench_frames(settings, 2), 2000);
+  settings.sensor = parse_preset("thesis");
+  EXPECT_EQ(bench_frames(settings, 2), 2);
+}
+
 TEST(Bench, ColumnsAreAllOrThoseOfSomeParts) {
   SensorModel sensor = small_sensor();
   EXPECT_EQ(bench_columns(sensor, 1e9).size(), 36U);

@@ -69,6 +69,10 @@ TEST(SensorModel, RefusesImpossibleIntegers) {
   model = SensorModel();
   model.binning = 0;
   EXPECT_THAT(refusal([&] { model.validate(); }), HasSubstr("binning"));
+  model.binning = 201;
+  EXPECT_THAT(refusal([&] { model.validate(); }), HasSubstr("binning must be at most 200"));
+  model.binning = 200;
+  model.validate();
 }
 
 TEST(SensorModel, RefusesGatesOutsideTheRange) {

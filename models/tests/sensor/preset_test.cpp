@@ -121,6 +121,12 @@ TEST(Preset, UnknownNameListsTheKnown) {
               HasSubstr("thesis, thesis_1mhz, thesis_full, phone, vl53l8ch, vl53l9cx, tmf8829, ads6311"));
 }
 
+TEST(Preset, AConditionThatIsNamedTwiceIsRefused) {
+  EXPECT_EQ(refusal([] { (void)find_sensor("phone+fog+motion+fog"); }),
+            "phone+fog+motion+fog: condition 'fog' is named twice");
+  EXPECT_EQ(find_sensor("phone+fog+motion").name, "phone-fog-motion");
+}
+
 /// Presets of makers' sensors, whose light nobody publishes.
 constexpr std::array kMakers = {"vl53l8ch", "vl53l9cx", "tmf8829", "ads6311"};
 
