@@ -27,7 +27,8 @@ module frame_control_properties #(
     input logic [         11:0] raw_first_i,
     input logic [         11:0] raw_last_i,
     input logic                 done_i,
-    input logic                 frame_i
+    input logic                 frame_i,
+    input logic                 unfinished_i
 );
 
   logic checking = 1'b0;
@@ -63,6 +64,7 @@ module frame_control_properties #(
       .begin_o           (begins),
       .done_i            (done_i),
       .frame_i           (frame_i),
+      .unfinished_i      (unfinished_i),
       .running_o         (running),
       .busy_o            (busy),
       .start_ignored_o   (start_ignored),
@@ -102,7 +104,7 @@ module frame_control_properties #(
   `PROVE(a_running, !rst_n || running == (under_way_q || follows_q))
   `PROVE(a_busy, !rst_n || busy == (under_way_q || follows_q || resetting_i))
   `PROVE(a_ignored, !rst_n || start_ignored == (start_i && (busy || abort_i)))
-  `PROVE(a_aborted, !rst_n || aborted == (abort_i && under_way_q && !done_i))
+  `PROVE(a_aborted, !rst_n || aborted == (abort_i && ((under_way_q && !done_i) || unfinished_i)))
   `PROVE(a_count, !rst_n || frame_count[3:0] == frames_q)
   `GOAL(rst_n && begins && follows_q)
 

@@ -35,7 +35,7 @@ module raster_buffer_properties #(
     checking <= 1'b1;
   end
 
-  logic s_tready, tvalid, tlast, second, aborted;
+  logic s_tready, tvalid, tlast, second, aborted, unfinished;
   logic [WIDTH-1:0] result;
   logic [COLUMN_WIDTH-1:0] column;
   logic [ROW_WIDTH-1:0] row;
@@ -63,6 +63,7 @@ module raster_buffer_properties #(
       .m_row_o   (row),
       .m_second_o(second),
       .m_aborted_o(aborted),
+      .unfinished_o(unfinished),
       .m_tlast_o (tlast)
   );
 
@@ -162,6 +163,7 @@ module raster_buffer_properties #(
   `PROVE(a_ends_at_once, !(rst_n && owed_q && !held_q) || (tvalid && aborted))
   `PROVE(a_takes_results, !rst_n || whole_q || cut_i || s_tready)
   `PROVE(a_goes_on, !rst_n || pause_q < 3)
+  `PROVE(a_unfinished, !rst_n || unfinished == (whole_q && !owed_q && !(tvalid && out_q == last_out)))
   `GOAL(rst_n && pop && tlast && column == watched_column && row == watched_row)
 
 endmodule

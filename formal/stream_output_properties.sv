@@ -68,7 +68,7 @@ module stream_output_properties #(
     end
   endgenerate
 
-  logic result_tready, tvalid, tuser, tlast, is_short;
+  logic result_tready, tvalid, tuser, tlast, is_short, unfinished;
   logic [63:0] tdata;
 
   dtof_stream_output #(
@@ -99,7 +99,8 @@ module stream_output_properties #(
       .m_axis_tdata_o (tdata),
       .m_axis_tuser_o (tuser),
       .m_axis_tlast_o (tlast),
-      .m_axis_short_o (is_short)
+      .m_axis_short_o (is_short),
+      .unfinished_o   (unfinished)
   );
 
   // Expected words in a queue: {short, first, last, word}, the oldest in slot 0.
@@ -166,6 +167,7 @@ module stream_output_properties #(
   `PROVE(a_tlast, !(rst_n && tvalid) || tlast == slot0_q[64])
   `PROVE(a_tuser, !(rst_n && tvalid) || tuser == slot0_q[65])
   `PROVE(a_short, !(rst_n && tvalid) || is_short == slot0_q[66])
+  `PROVE(a_unfinished, !rst_n || unfinished == (open && !(count_q == 2'd2 && slot1_q[63])))
   `GOAL(rst_n && pop && tlast && count_q == 2'd2 && tdata[57] && !tuser)
 
 endmodule

@@ -5,7 +5,8 @@
 // 2. With continuous_i the next frame begins in the clock after the array's done_i.
 // 3. With illegal settings no frame begins, and continuous frames end (illegal_schedule_o). start_i while busy_o is high has no
 //    effect (start_ignored_o).
-// 4. abort_i ends the present frame at once. The next frame begins with a start_i after the array's reset (resetting_i).
+// 4. abort_i ends the present frame at once. The next frame begins with a start_i after the array's reset (resetting_i). aborted_o says
+//    that abort_i came before the array's last clock of a frame, or cut off words of a frame.
 //
 // Equation: the settings are legal if coarse_end <= track_end <= acquisitions (HAS_SCHEDULE = 1), 1 <= release <= MOST_RELEASE, and,
 // with raw_i (RAW_HISTOGRAM = 1), raw_first <= raw_last < PIXELS_PER_SRAM.
@@ -39,11 +40,12 @@ module dtof_frame_control #(
     output logic                 begin_o,             // start of the array, which samples its settings
     input  logic                 done_i,              // last clock of the array's frame
     input  logic                 frame_i,             // the sink has taken the frame's last result
+    input  logic                 unfinished_i,        // the array's frame is over, and abort_i cuts off words of the frame
     output logic                 running_o,           // a frame is in progress, or a continuous frame is about to begin
     output logic                 busy_o,              // running_o or resetting_i
     output logic                 start_ignored_o,     // these three outputs are high for one clock
     output logic                 illegal_schedule_o,
-    output logic                 aborted_o,           // abort_i came during a frame
+    output logic                 aborted_o,
     output logic [         31:0] frame_count_o,
     output logic [         31:0] frame_cycles_o       // from begin_o to done_i, both included
 );
@@ -79,7 +81,7 @@ module dtof_frame_control #(
   assign begin_o = begins && legal;
   assign illegal_schedule_o = begins && !legal;
   assign start_ignored_o = start_i && (busy_o || abort_i);
-  assign aborted_o = abort_i && running_q && !done_i;
+  assign aborted_o = abort_i && ((running_q && !done_i) || unfinished_i);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

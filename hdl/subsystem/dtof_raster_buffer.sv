@@ -48,6 +48,7 @@ module dtof_raster_buffer #(
     output logic [   ROW_WIDTH-1:0] m_row_o,
     output logic                    m_second_o,
     output logic                    m_aborted_o,
+    output logic                    unfinished_o,  // cut_i would cut off a whole frame that no earlier cut_i has cut off
     output logic                    m_tlast_o
 );
 
@@ -159,6 +160,7 @@ module dtof_raster_buffer #(
   );
 
   assign last_place = (m_column_o == LAST_COLUMN) && (m_row_o == LAST_ROW) && last_target;
+  assign unfinished_o = ends_q || (reading_q && !aborted_q && !(head_q && last_place));
   assign m_tvalid_o = head_q || aborted_q;
   assign m_aborted_o = !head_q;
   assign m_tlast_o = !head_q || last_place;

@@ -66,6 +66,7 @@ module dtof_result_path #(
     output logic                     m_axis_tlast_o,
     // status and events
     output logic                     words_left_o,     // words are inside
+    output logic                     unfinished_o,     // the array's frame is over, and abort_i would cut off words of the frame
     output logic                     word_ends_o,      // a frame's last word leaves, which did not end by abort_i
     output logic [             31:0] crc_o,
     output logic                     crc_pending_o,
@@ -167,7 +168,7 @@ module dtof_result_path #(
 
   // Words.
 
-  logic word_tvalid, word_tready, word_tuser, word_tlast, word_short, output_rst_n, output_cut, aborted_word;
+  logic word_tvalid, word_tready, word_tuser, word_tlast, word_short, output_rst_n, output_cut, aborted_word, output_unfinished;
   logic out_tvalid, out_tready, out_taken;  // of the port, and of words of a self-test, which stay inside
 
   assign m_axis_tvalid_o = out_tvalid && !test_frame_i;
@@ -206,7 +207,8 @@ module dtof_result_path #(
       .m_axis_tdata_o (word_tdata),
       .m_axis_tuser_o (word_tuser),
       .m_axis_tlast_o (word_tlast),
-      .m_axis_short_o (word_short)
+      .m_axis_short_o (word_short),
+      .unfinished_o   (output_unfinished)
   );
 
   generate
@@ -224,11 +226,13 @@ module dtof_result_path #(
       logic [POSITION_WIDTH-1:0] position;
       logic [COLUMN_WIDTH-1:0] column;
       logic [ROW_WIDTH-1:0] row;
-      logic second_word;
+      logic second_word, words_left_in_front, buffer_unfinished;
 
+      assign words_left_in_front = word_tvalid || (target_tvalid && !resetting_i);
       assign output_rst_n = stream_rst_ni;
       assign output_cut = 1'b0;
       assign words_left_o = word_tvalid || !word_tready;
+      assign unfinished_o = !test_frame_i && (words_left_in_front || buffer_unfinished);
 
       dtof_raster_buffer #(
           .SRAM_NUM       (SRAM_NUM),
@@ -258,6 +262,7 @@ module dtof_result_path #(
           .m_row_o   (row),
           .m_second_o(second_word),
           .m_aborted_o(aborted_word),
+          .unfinished_o(buffer_unfinished),
           .m_tlast_o (ordered_tlast)
       );
 
@@ -286,7 +291,7 @@ module dtof_result_path #(
       assign ordered_tuser = (column == '0) && (row == '0) && !second_word && !aborted_word;
 
       logic unused_word;
-      assign unused_word = ^{word_tuser, word_tdata};
+      assign unused_word = ^{word_tuser, word_tdata, output_unfinished};
     end else begin : g_array_order
       assign output_rst_n = rst_ni;
       assign output_cut = abort_i;
@@ -296,6 +301,7 @@ module dtof_result_path #(
       assign sram_cfg_o = '1;
       assign parity_error_o = 1'b0;
       assign words_left_o = word_tvalid;
+      assign unfinished_o = !test_frame_i && output_unfinished;
       assign word_tready = ordered_tready;
       assign ordered_tvalid = word_tvalid;
       assign ordered_tdata = word_tdata;

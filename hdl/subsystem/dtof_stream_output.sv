@@ -9,7 +9,8 @@
 // With amplitude_i words have amplitude and ambient in place of row and column.
 // tuser marks a frame's first word, tlast its last word. m_axis_short_o is short_i at the frame's results.
 // cut_i ends the frame: the word at the port stays until the sink takes it, and the second word is deleted. If words of the frame, but
-// not its last, have been at the port, a word in which only `aborted` is set, with tlast, ends the frame.
+// not its last, have been at the port, a word in which only `aborted` is set, with tlast, ends the frame. While unfinished_o is high,
+// cut_i would cut off a frame in this way that no earlier cut_i has cut off.
 // Latency: one clock. One word per clock while tready stays high. tvalid never falls before tready.
 // Cost: two words, a comparator, a multiplexer of SRAM_NUM bits.
 `include "dtof_macros.svh"
@@ -51,7 +52,8 @@ module dtof_stream_output #(
     output logic [ WORD_WIDTH-1:0] m_axis_tdata_o,
     output logic                   m_axis_tuser_o,  // first word of the frame
     output logic                   m_axis_tlast_o,
-    output logic                   m_axis_short_o   // of the word at the port
+    output logic                   m_axis_short_o,  // of the word at the port
+    output logic                   unfinished_o     // see cut_i above
 );
 
   logic [COLUMN_WIDTH-1:0] column;
@@ -208,6 +210,7 @@ module dtof_stream_output #(
   assign m_axis_tuser_o = first_q;
   assign m_axis_tlast_o = last_q;
   assign m_axis_short_o = short_q;
+  assign unfinished_o = open_q && !(behind_q && behind_word_q[dtof_registers_pkg::RESULT_ABORTED_LSB]);
 
 `ifndef SYNTHESIS
   dtof_stream_rules #(

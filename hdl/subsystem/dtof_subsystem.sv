@@ -4,11 +4,9 @@
 //
 // 1. Software writes the registers (dtof_apb_registers) and CONTROL.START. A frame (dtof_frame_control) uses the settings of the last commit
 //    before the frame begins.
-// 2. dtof_line_path takes lines of timestamps from the source and gives them to the array; shot_o fires the laser and starts the TDCs. If the laser
-//    runs freely, leave shot_o unconnected.
+// 2. dtof_line_path gives the source's lines of timestamps to the array; shot_o fires laser and TDCs. If the laser runs freely, leave shot_o open.
 // 3. dtof_gated_array is the array behind its clock gate.
-// 4. dtof_result_path gives the results to the sink. After the sink has taken a frame's last result, the subsystem raises the interrupt; in
-//    continuous mode the next frame has begun by then.
+// 4. dtof_result_path gives the results to the sink. The interrupt follows a frame's last result. In continuous mode the next frame has begun by then.
 // 5. Every frame ends, whatever the source does: a watchdog ends the wait for a dead source. CONTROL.ABORT ends a frame at any time.
 // 6. With SELF_TEST = 1, CONTROL.SELF_TEST begins a self-test: a frame of pseudo-random lines, whose checksum the hardware compares
 //    (dtof_self_test). The source's lines wait, no shot is fired, and the words stay inside.
@@ -171,7 +169,7 @@ module dtof_subsystem #(
   // Status and events.
   logic begin_frame, running, busy, done, frame, starting, resetting, in_reset, array_rst_n, stream_rst_n;
   logic start_ignored, illegal_schedule, underrun, short_acquisition, long_acquisition, overrun, counter_full, aborted, timeout, stalled;
-  logic dropped, words_left, word_ends, frame_crc_pending, line_parity_error, result_parity_error, array_parity_error;
+  logic dropped, words_left, words_unfinished, word_ends, frame_crc_pending, line_parity_error, result_parity_error, array_parity_error;
   logic test_chosen, test_refused, test_frame, test_busy, test_passed, test_failed;  // test_frame: the frame that began last is a self-test
   logic [2:0] state;
   logic [15:0] level, shot_state;
@@ -294,6 +292,7 @@ module dtof_subsystem #(
       .begin_o           (begin_frame),
       .done_i            (done),
       .frame_i           (frame),
+      .unfinished_i      (words_unfinished),
       .running_o         (running),
       .busy_o            (busy),
       .start_ignored_o   (start_ignored),
@@ -479,6 +478,7 @@ module dtof_subsystem #(
       .m_axis_tuser_o (m_axis_tuser_o),
       .m_axis_tlast_o (m_axis_tlast_o),
       .words_left_o   (words_left),
+      .unfinished_o   (words_unfinished),
       .word_ends_o    (word_ends),
       .crc_o          (frame_crc),
       .crc_pending_o  (frame_crc_pending),

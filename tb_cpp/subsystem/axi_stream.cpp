@@ -123,18 +123,21 @@ void ResultSink::observe() {
   }
 }
 
-void ResultSink::cut() {
+bool ResultSink::cut() {
   if (inside_ && held_) {  // the beat that ends a frame stays
+    const bool begun = !expected_.empty();
     expected_.clear();
-    return;
+    return begun;
   }
   const bool ends = held_ && held_last_;  // with the word that is offered
+  const bool loses = expected_.size() > (cut_ || ends ? 1U : 0U);
   cut_short_ = !expected_.empty() && expected_.front().short_words;
   inside_ = cut_short_ && !held_ && current_.empty();
   cut_ = (cut_ || !ends) && (held_ || !current_.empty());
   while (expected_.size() > (cut_ || ends ? 1U : 0U)) {
     expected_.pop_back();
   }
+  return loses;
 }
 
 }  // namespace dtof

@@ -88,8 +88,9 @@ class ResultSink {
   }
   /// Cuts off the expected frames after this clock. An offered word stays; a frame whose first words were
   /// sent then ends with the word for an abort. A frame of short words whose first beat was not sent may end
-  /// with one beat: its first short word and the one for an abort.
-  void cut();
+  /// with one beat: its first short word and the one for an abort. Returns true if a frame loses words that
+  /// no earlier cut took.
+  bool cut();
 
   void drive();
   /// Throws RtlError if the stream breaks its protocol.

@@ -98,7 +98,7 @@ void SubsystemBench::clock() {
   observe_lines();
   sink_.observe();
   if (*ports_.abort != 0) {
-    sink_.cut();
+    events().aborted = sink_.cut() || events().aborted;
   }
   *ports_.clock = 1;
   context_->time(2 * cycle_ + 1);

@@ -237,6 +237,33 @@ TEST_P(StreamFaults, AFrameBehindAnAbortHasItsWholeWatchdog) {
   ASSERT_NO_FATAL_FAILURE(expect_a_good_frame(everything_counts(2), random));
 }
 
+TEST_P(StreamFaults, AnAbortAfterTheArraysFrameIsToldIfWordsAreLost) {
+  CounterRandom random = this->random(41);
+  const RtlConfiguration& configuration = bench_.configuration();
+  const auto words = static_cast<std::size_t>(configuration.pixels_per_sram * configuration.sram_num);
+  for (const std::size_t left : {2U, 1U}) {
+    SCOPED_TRACE(testing::Message() << left << " words are left");
+    write_settings(bench_, everything_counts(2));
+    push(beats_of(bright_lines(configuration, 2, random)));
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    while (bench_.sink().current().size() + left < words) {
+      bench_.clock();
+    }
+    bench_.sink().blocked = true;
+    bench_.clocks(5000);
+    ASSERT_EQ(bench_.get(DTOF_STATUS) & DTOF_STATUS_BUSY_MASK, 0U);
+    ASSERT_NO_FATAL_FAILURE(abort(kAbortAndFlush));
+    EXPECT_EQ(bench_.get(DTOF_WARNING) & DTOF_WARNING_ABORTED_MASK,
+              left == 1 ? 0U : DTOF_WARNING_ABORTED_MASK);
+    bench_.sink().blocked = false;
+    ASSERT_NO_FATAL_FAILURE(wait_until_idle());
+    EXPECT_EQ(bench_.sink().aborted(), 1U);
+    checked_ = bench_.sink().frames().size();
+    priors_.clear();
+    expect_registers();
+  }
+}
+
 TEST_P(StreamFaults, AnAbortDropsTheNextFrameBehindALastWordThatWaits) {
   CounterRandom random = this->random(39);
   const RtlConfiguration& configuration = bench_.configuration();
