@@ -23,6 +23,7 @@
 #include "dtof/core/error.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/core/suggestion.hpp"
+#include "dtof/io/output_error.hpp"
 #include "rtl/error.hpp"
 
 namespace dtof {
@@ -220,6 +221,8 @@ int run_program(const Program& program, int count, const char* const* arguments)
       return fail(kExitFailure, "standard output: cannot write: " + reason);
     }
     return 0;
+  } catch (const OutputError& error) {
+    return fail(kExitFailure, in_one_line(error.what()));
   } catch (const InputError& error) {
     return fail(kExitInputError, in_one_line(error.what()));
   } catch (const RtlError& error) {

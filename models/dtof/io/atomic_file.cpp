@@ -16,6 +16,7 @@
 
 namespace dtof {
 namespace {
+#include "dtof/io/output_error.hpp"
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 20U;
 
@@ -83,7 +84,7 @@ void AtomicFile::commit() {
 }
 
 void AtomicFile::fail(const std::string& reason) const {
-  throw InputError(fmt::format("{}: cannot write: {}", target_.string(), reason));
+  throw OutputError(fmt::format("{}: cannot write: {}", target_.string(), reason));
 }
 
 void AtomicFile::flush() {

@@ -10,7 +10,8 @@ namespace dtof {
 /// Output file that appears whole or not at all. Data goes to a temporary file beside the target, which
 /// `commit` renames. Without `commit` (e.g. after an exception) the temporary file is deleted and an older
 /// target stays unchanged. A target that is not a regular file (/dev/stdout, a pipe) is written directly.
-/// Every failure throws InputError "<path>: cannot write: <reason>".
+/// What is appended may be packed with gzip on its way. Every failure throws OutputError "<path>: cannot
+/// write: <reason>".
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);

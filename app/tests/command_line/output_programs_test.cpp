@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program says and leaves behind when it writes.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dtof/io/input_file.hpp"
+#include "dtof/io/npy.hpp"
+#include "tests/io/io_test_support.hpp"
+#include "tests/run_shell.hpp"
+
+namespace dtof {
+namespace {
+
+using test::Outcome;
+using test::run_shell;
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr const char* kSmall = "--array-columns 4 --array-rows 3 --acquisitions 100 --table none";
+constexpr const char* kHeader = "acquisition,column,row,timestamp\n";
+
+class Outputs : public test::IoTest {
+ protected:
+  [[nodiscard]] Outcome dtof(const std::string& arguments, const std::string& before = "") const {
+    return run_shell(fmt::format("cd '{}' && {} {} {}", path("").string(), before, DTOF_PROGRAM, arguments));
+  }
+  /// This exit code, and one line that ends with the reason.
+  void expect_error(int exit_code, const std::string& arguments, const std::string& reason,
+                    const std::string& before = "") const {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = dtof(arguments, before);
+    EXPECT_EQ(outcome.exit_code, exit_code);
+    EXPECT_THAT(outcome.output, StartsWith("dtof: error: "));
+    EXPECT_THAT(outcome.output, EndsWith(reason + "\n"));
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+  }
+};
+
+TEST_F(Outputs, WhatCannotBeWrittenIsAFailureAndNoBadInput) {
+  const std::string frame = fmt::format("frame -r ezpointer {} ", kSmall);
+  expect_error(4, frame + "--out out --record /dev/full", "/dev/full: cannot write: No space left on device");
+  expect_error(4, frame + "--out out --record none/a.csv",
+               "none/a.csv: cannot write: No such file or directory");
+  expect_error(4, frame + "--out out --record a.csv.gz", "a.csv.gz: cannot write: File too large",
+               "trap '' XFSZ; ulimit -f 0;");
+  (void)write("file", "");
+  expect_error(4, frame + "--out file/out", "file/out: cannot create the output folder: Not a directory");
+  (void)write("a.csv", std::string(kHeader) + "0,0,0,5\n");
+  expect_error(4, "replay a.csv -r sifh --out file/out",
+               "file/out: cannot create the output folder: Not a directory");
+  for (const char* name : {"none/a.npz", "none/a.npy"}) {
+    expect_error(4, std::string("convert a.csv ") + name,
+                 std::string(name) + ": cannot write: No such file or directory");
+  }
+  expect_error(1, "convert none.csv a.npz", "none.csv: cannot read: No such file or directory");
+}
+
+}  // namespace
+}  // namespace dtof
