@@ -23,7 +23,10 @@ void fail_in_file(const std::filesystem::path& path, std::string_view reason) {
   throw InputError(path.string() + ": " + std::string(reason));
 }
 
-AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)) { refuse(target_); }
+struct AtomicFile::Packer {};
+AtomicFile::AtomicFile(std::filesystem::path target, Packing /*packing*/) : target_(std::move(target)) {
+  refuse(target_);
+}
 AtomicFile::~AtomicFile() = default;
 void AtomicFile::append(std::string_view /*bytes*/) { refuse(target_); }
 void AtomicFile::commit() { refuse(target_); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -14,7 +15,9 @@ namespace dtof {
 /// write: <reason>".
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path target);
+  enum class Packing { kPlain, kGzip };
+
+  explicit AtomicFile(std::filesystem::path target, Packing packing = Packing::kPlain);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   AtomicFile(AtomicFile&&) = delete;
@@ -25,7 +28,10 @@ class AtomicFile {
   void commit();
 
  private:
+  struct Packer;
+
   [[noreturn]] void fail(const std::string& reason) const;
+  void pack(std::string_view bytes, bool last);
   void flush();
   void close_and_remove() noexcept;
 
@@ -34,6 +40,7 @@ class AtomicFile {
   std::filesystem::path temporary_;  ///< empty if the target is written directly
   int descriptor_ = -1;
   std::string buffer_;
+  std::unique_ptr<Packer> packer_;  ///< none: plain
 };
 
 /// Writes `contents` as an AtomicFile.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <iterator>
 #include <limits>
@@ -287,7 +288,10 @@ RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCs
 }
 
 void write_stream_csv(const std::filesystem::path& path, const StreamSource& source) {
-  AtomicFile file(path);
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  AtomicFile file(path, ending == ".gz" ? AtomicFile::Packing::kGzip : AtomicFile::Packing::kPlain);
   file.append(kStreamCsvHeader);
   file.append("\n");
   fmt::memory_buffer text;

@@ -55,7 +55,8 @@ RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCs
 /// The same of lines from a file or from memory.
 RecordedStream read_stream_csv(LineReader& lines, const StreamCsvOptions& options);
 
-/// Writes `source` column by column, row by row. read_stream_csv returns the same stream.
+/// Writes `source` column by column, row by row, packed with gzip if the name ends with .gz. read_stream_csv
+/// returns the same stream.
 void write_stream_csv(const std::filesystem::path& path, const StreamSource& source);
 
 }  // namespace dtof

@@ -13,6 +13,7 @@
 
 #include "dtof/core/random.hpp"
 #include "dtof/io/atomic_file.hpp"
+#include "dtof/io/input_file.hpp"
 #include "dtof/recording/recording.hpp"
 #include "tests/io/io_test_support.hpp"
 
