@@ -20,7 +20,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t /*longest*/
 std::string read_file_or_gzip(const std::filesystem::path& path, std::size_t /*longest*/) { refuse(path); }
 
 void fail_in_file(const std::filesystem::path& path, std::string_view reason) {
-  throw InputError(path.string() + ": " + std::string(reason));
+  throw InputError(path.string() + ": " + with_visible_nul(reason));
 }
 
 struct AtomicFile::Packer {};

@@ -64,5 +64,12 @@ TEST_F(Outputs, WhatCannotBeWrittenIsAFailureAndNoBadInput) {
   expect_error(1, "convert none.csv a.npz", "none.csv: cannot read: No such file or directory");
 }
 
+TEST_F(Outputs, ByteZeroOfAFileIsSeenInTheMessage) {
+  (void)write("a.csv", kHeader + std::string("0,0,0,1\0\n", 9));
+  expect_error(1, "replay a.csv -r sifh --out out", "a.csv:2: timestamp \"1\\0\" is not a decimal integer");
+  (void)write("b.csv", kHeader + std::string("0,0,0,\0\0\n", 9));
+  expect_error(1, "replay b.csv -r sifh --out out", "b.csv:2: timestamp \"\\0\\0\" is not a decimal integer");
+}
+
 }  // namespace
 }  // namespace dtof

@@ -51,7 +51,7 @@ void check_length(const std::filesystem::path& path, std::size_t bytes, std::siz
 }  // namespace
 
 void fail_in_file(const std::filesystem::path& path, std::string_view reason) {
-  throw InputError(fmt::format("{}: {}", path.string(), reason));
+  throw InputError(fmt::format("{}: {}", path.string(), with_visible_nul(reason)));
 }
 
 std::string read_file(const std::filesystem::path& path, std::size_t longest) {

@@ -29,6 +29,15 @@ std::string read_file_or_gzip(const std::filesystem::path& path, std::size_t lon
 std::string unpack_gzip(const std::filesystem::path& path, std::string contents,
                         std::size_t longest = kLongestUnpacked);
 
+/// The text of a file for a message, which a NUL byte would end: "\0" for each.
+inline std::string with_visible_nul(std::string_view text) {
+  std::string visible;
+  for (const char letter : text) {
+    visible += letter == '\0' ? "\\0" : std::string(1, letter);
+  }
+  return visible;
+}
+
 /// Text without a leading UTF-8 byte order mark.
 constexpr std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
