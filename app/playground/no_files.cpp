@@ -5,6 +5,7 @@
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/csv_table.hpp"
 #include "dtof/io/input_file.hpp"
+#include "dtof/io/unpacked_file.hpp"
 
 namespace dtof {
 namespace {
@@ -30,6 +31,14 @@ AtomicFile::AtomicFile(std::filesystem::path target, Packing /*packing*/) : targ
 AtomicFile::~AtomicFile() = default;
 void AtomicFile::append(std::string_view /*bytes*/) { refuse(target_); }
 void AtomicFile::commit() { refuse(target_); }
+
+struct GzipUnpacker::Stream {};
+GzipUnpacker::~GzipUnpacker() = default;
+UnpackedFile::UnpackedFile(std::filesystem::path path) : path_(std::move(path)), descriptor_(-1) {
+  refuse(path_);
+}
+UnpackedFile::~UnpackedFile() = default;
+std::size_t UnpackedFile::read(std::span<char> /*bytes*/) { refuse(path_); }
 
 CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path)) { refuse(path_); }
 std::vector<double> CsvTable::column(std::string_view /*name*/) const { refuse(path_); }

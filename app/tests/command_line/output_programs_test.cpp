@@ -64,6 +64,22 @@ TEST_F(Outputs, WhatCannotBeWrittenIsAFailureAndNoBadInput) {
   expect_error(1, "convert none.csv a.npz", "none.csv: cannot read: No such file or directory");
 }
 
+TEST_F(Outputs, APackedRecordingIsReplayedAsAPlainOne) {
+  const std::string frame = fmt::format("frame -r ezpointer {} --out out --record ", kSmall);
+  ASSERT_EQ(dtof(frame + "a.csv").exit_code, 0);
+  ASSERT_EQ(dtof(frame + "a.csv.gz").exit_code, 0);
+  EXPECT_EQ(contents(path("a.csv.gz")).substr(0, 2), "\x1f\x8b");
+  EXPECT_EQ(read_file_or_gzip(path("a.csv.gz")), contents(path("a.csv")));
+  for (const char* name : {"a.csv", "a.csv.gz"}) {
+    const Outcome replay = dtof(fmt::format("replay {} -r ezpointer --out out_{}", name, name));
+    ASSERT_EQ(replay.exit_code, 0) << replay.output;
+  }
+  EXPECT_EQ(contents(path("out_a.csv/ezpointer.csv")), contents(path("out_a.csv.gz/ezpointer.csv")));
+  (void)write("rest.csv.gz", contents(path("a.csv.gz")) + "rest");
+  expect_error(1, "replay rest.csv.gz -r ezpointer --out rest",
+               "rest.csv.gz: damaged gzip data: other bytes follow");
+}
+
 TEST_F(Outputs, ByteZeroOfAFileIsSeenInTheMessage) {
   (void)write("a.csv", kHeader + std::string("0,0,0,1\0\n", 9));
   expect_error(1, "replay a.csv -r sifh --out out", "a.csv:2: timestamp \"1\\0\" is not a decimal integer");

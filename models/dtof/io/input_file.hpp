@@ -22,7 +22,7 @@ inline constexpr std::size_t kLongestUnpacked = std::size_t{1} << 28U;
 std::string read_file(const std::filesystem::path& path, std::size_t longest = kLongestFile);
 
 /// Reads as `read_file` and unpacks gzip, recognised by its first two bytes. Throws also if the gzip data is
-/// damaged or ends early, or if file or unpacked data exceed `longest` bytes.
+/// damaged, ends early or has other bytes behind its end, or if file or unpacked data exceed `longest` bytes.
 std::string read_file_or_gzip(const std::filesystem::path& path, std::size_t longest = kLongestUnpacked);
 
 /// Unpacks `contents` of `path` if they are gzip; other contents are returned unchanged.

@@ -134,9 +134,14 @@ TEST_F(AtomicFileTest, GzipIsUnpackedFromAPipe) {
   const std::string packed = contents(path("a.gz"));
   EXPECT_EQ(read_file_or_gzip(pipe_of(packed)), text);
   EXPECT_EQ(read_file_or_gzip(pipe_of("plain")), "plain");
-  // Members follow each other, as `cat a.gz b.gz` writes them; what is no member is ignored, as gzip does.
+  // Members follow each other, as `cat a.gz b.gz` writes them; what is no member is refused.
   EXPECT_EQ(unpack_gzip("a.gz", packed + packed), text + text);
-  EXPECT_EQ(unpack_gzip("a.gz", packed + "rest"), text);
+  for (const std::string& rest : {std::string("rest"), std::string(1, '\0'), std::string("\x1f!")}) {
+    test::expect_input_error([&] { (void)unpack_gzip("a.gz", packed + rest); },
+                             "a.gz: damaged gzip data: other bytes follow");
+    test::expect_input_error([&] { (void)read_file_or_gzip(pipe_of(packed + packed + rest)); },
+                             EndsWith("damaged gzip data: other bytes follow"));
+  }
   test::expect_input_error([&] { (void)unpack_gzip("a.gz", packed, 1U << 18U); },
                            "a.gz: more than 0 MiB to read");
   for (std::size_t size = 2; size < packed.size(); size += 7) {
