@@ -80,6 +80,18 @@ TEST_F(Outputs, APackedRecordingIsReplayedAsAPlainOne) {
                "rest.csv.gz: damaged gzip data: other bytes follow");
 }
 
+TEST_F(Outputs, TimestampsOfAllOnesAreNoDetectionsInReplayAndConvert) {
+  (void)write("a.csv", std::string(kHeader) + "0,0,0,1023\n0,1,0,100\n1,1,0,1023\n2,1,0,100\n");
+  const Outcome replay = dtof("replay a.csv -r histogram --out out");
+  EXPECT_THAT(replay.output, StartsWith("a.csv (recorded stream, 2 detections): 2 columns x 1 rows"));
+  write_npy(path("truth.npy"), std::vector<std::size_t>{1, 2}, std::vector<double>{1.0, 1.0});
+  EXPECT_THAT(dtof("replay a.csv -r histogram --truth truth.npy --out out").output,
+              HasSubstr("1 pixel is without a detection and not judged."));
+  EXPECT_THAT(dtof("convert a.csv a.npy").output, HasSubstr("recorded stream, 2 detections: histograms"));
+  EXPECT_EQ(dtof("convert a.csv b.csv").exit_code, 0);
+  EXPECT_EQ(contents(path("b.csv")), std::string(kHeader) + "0,1,0,100\n2,1,0,100\n");
+}
+
 TEST_F(Outputs, ByteZeroOfAFileIsSeenInTheMessage) {
   (void)write("a.csv", kHeader + std::string("0,0,0,1\0\n", 9));
   expect_error(1, "replay a.csv -r sifh --out out", "a.csv:2: timestamp \"1\\0\" is not a decimal integer");
