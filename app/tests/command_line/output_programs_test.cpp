@@ -92,11 +92,30 @@ TEST_F(Outputs, TimestampsOfAllOnesAreNoDetectionsInReplayAndConvert) {
   EXPECT_EQ(contents(path("b.csv")), std::string(kHeader) + "0,1,0,100\n2,1,0,100\n");
 }
 
+TEST_F(Outputs, ReplayOfAPartCountsTheDetectionsOfThisPart) {
+  (void)write("a.csv", std::string(kHeader) + "0,0,0,5\n0,1,0,6\n1,1,0,7\n2,1,1,8\n");
+  EXPECT_THAT(dtof("replay a.csv -r histogram --out out").output,
+              StartsWith("a.csv (recorded stream, 4 detections): 2 columns x 2 rows"));
+  EXPECT_THAT(
+      dtof("replay a.csv -r histogram --out out --columns 1 --rows 0").output,
+      StartsWith("a.csv (recorded stream, 4 detections, 2 of them in the pixels read): 1 columns x 1 rows"));
+}
+
 TEST_F(Outputs, ByteZeroOfAFileIsSeenInTheMessage) {
   (void)write("a.csv", kHeader + std::string("0,0,0,1\0\n", 9));
   expect_error(1, "replay a.csv -r sifh --out out", "a.csv:2: timestamp \"1\\0\" is not a decimal integer");
   (void)write("b.csv", kHeader + std::string("0,0,0,\0\0\n", 9));
   expect_error(1, "replay b.csv -r sifh --out out", "b.csv:2: timestamp \"\\0\\0\" is not a decimal integer");
+}
+
+TEST_F(Outputs, RecordingsHaveAcquisitions) {
+  write_npy(path("a.npy"), std::vector<std::size_t>{1, 8}, std::vector<double>(8, 1.0));
+  const std::string replay = "replay a.npy --bin-width 1000 -r sifh --out out ";
+  EXPECT_EQ(dtof(replay + "--acquisitions 0").exit_code, 1);
+  EXPECT_EQ(dtof(replay + "--acquisitions 1").exit_code, 0);
+  expect_error(1, replay + "--shift 1e300",
+               "--shift: 1e300 is not within -1000000000 to 1000000000 ns, a second");
+  expect_error(1, replay + "--t-int 0", "--t-int: 0 is not above 0");
 }
 
 }  // namespace
