@@ -101,9 +101,10 @@ std::string convert_map(const ConversionOptions& options, const ConversionInput&
                                          static_cast<std::size_t>(map.depth.width)},
                 std::vector<double>(map.depth.metres.begin(), map.depth.metres.end()));
       return map_sentence(map);
-    default:
-      write_converted_map(options.out, map.depth);
-      return map_sentence(map);
+    default: {
+      const std::string lost = write_converted_map(options.out, map.depth);
+      return map_sentence(map) + (lost.empty() ? "" : "; " + lost);
+    }
   }
 }
 
