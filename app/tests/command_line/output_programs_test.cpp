@@ -101,6 +101,32 @@ TEST_F(Outputs, ReplayOfAPartCountsTheDetectionsOfThisPart) {
       StartsWith("a.csv (recorded stream, 4 detections, 2 of them in the pixels read): 1 columns x 1 rows"));
 }
 
+TEST_F(Outputs, PicturesOfOneValueAreDrawnWithoutWarnings) {
+  if (run_shell("gnuplot --version").exit_code != 0) {
+    GTEST_SKIP() << "gnuplot is not installed";
+  }
+  const std::string one = "--array-columns 1 --array-rows 1 --acquisitions 100";
+  const Outcome video = dtof(fmt::format("video --scene flat --motion still --frames 2 {} --out out", one));
+  EXPECT_EQ(video.exit_code, 0);
+  EXPECT_THAT(video.output, Not(HasSubstr("arning")));
+  EXPECT_THAT(contents(path("out/flat_still.svg")), HasSubstr("</svg>"));
+  (void)write("a.csv", std::string(kHeader) + "0,0,0,500\n1,0,0,500\n2,0,0,500\n");
+  write_npy(path("truth.npy"), std::vector<std::size_t>{1, 1}, std::vector<double>{2.0});
+  const Outcome replay = dtof("replay a.csv -r histogram --truth truth.npy --out out");
+  EXPECT_EQ(replay.exit_code, 0);
+  EXPECT_THAT(replay.output, Not(HasSubstr("arning")));
+  EXPECT_THAT(contents(path("out/error.svg")), HasSubstr("</svg>"));
+  // A gnuplot that fails: its last complaint is in the line, and nothing is left behind.
+  (void)write("gnuplot", "#!/bin/sh\n[ \"$1\" = --version ] && exit\ncat >/dev/null\necho odd >&2\nexit 3\n");
+  std::filesystem::permissions(path("gnuplot"), std::filesystem::perms::owner_all);
+  const Outcome failed = dtof("replay a.csv -r histogram --truth truth.npy --out other",
+                              fmt::format("PATH='{}':\"$PATH\"", path("").string()));
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_EQ(failed.output,
+            "dtof: error: other/error.svg: cannot plot: gnuplot failed (is it installed?): odd\n");
+  EXPECT_FALSE(std::filesystem::exists(path("other/error.svg.gnuplot")));
+}
+
 TEST_F(Outputs, ByteZeroOfAFileIsSeenInTheMessage) {
   (void)write("a.csv", kHeader + std::string("0,0,0,1\0\n", 9));
   expect_error(1, "replay a.csv -r sifh --out out", "a.csv:2: timestamp \"1\\0\" is not a decimal integer");
