@@ -127,6 +127,16 @@ TEST_F(Outputs, PicturesOfOneValueAreDrawnWithoutWarnings) {
   EXPECT_FALSE(std::filesystem::exists(path("other/error.svg.gnuplot")));
 }
 
+TEST_F(Outputs, PicturesDoNotDependOnTheNumberOfThreads) {
+  const std::string frame = fmt::format("frame -r ezpointer {} --out out ", kSmall);
+  ASSERT_EQ(dtof(frame + "--threads 1").exit_code, 0);
+  const std::string overview = contents(path("out/overview.png"));
+  const std::string errors = contents(path("out/errors.png"));
+  ASSERT_EQ(dtof(frame + "-j 2").exit_code, 0);
+  EXPECT_EQ(contents(path("out/overview.png")), overview);
+  EXPECT_EQ(contents(path("out/errors.png")), errors);
+}
+
 TEST_F(Outputs, ByteZeroOfAFileIsSeenInTheMessage) {
   (void)write("a.csv", kHeader + std::string("0,0,0,1\0\n", 9));
   expect_error(1, "replay a.csv -r sifh --out out", "a.csv:2: timestamp \"1\\0\" is not a decimal integer");
