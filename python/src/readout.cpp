@@ -131,9 +131,14 @@ py::dict parameter_dict(const ReadoutParameters& parameters) {
 }  // namespace
 
 ReadoutParameters to_readout(const py::handle& readout, const SensorModel& sensor) {
-  return py::isinstance<py::str>(readout)
-             ? default_parameters(parse_readout(readout.cast<std::string>()), sensor)
-             : readout.cast<ReadoutParameters>();
+  if (py::isinstance<py::str>(readout)) {
+    return default_parameters(parse_readout(readout.cast<std::string>()), sensor);
+  }
+  if (!py::isinstance<ReadoutParameters>(readout)) {
+    throw py::type_error(fmt::format("{} is neither the name of a read-out nor a dtof.Readout",
+                                     py::repr(readout).cast<std::string>()));
+  }
+  return readout.cast<ReadoutParameters>();
 }
 
 void bind_readouts(py::module_& module) {
