@@ -125,6 +125,17 @@ TEST_F(Outputs, PicturesOfOneValueAreDrawnWithoutWarnings) {
   EXPECT_EQ(failed.output,
             "dtof: error: other/error.svg: cannot plot: gnuplot failed (is it installed?): odd\n");
   EXPECT_FALSE(std::filesystem::exists(path("other/error.svg.gnuplot")));
+  // One that a full disk stops, which gnuplot does not notice.
+  for (const char* drawn : {"", "<svg"}) {
+    (void)write("gnuplot", std::string("#!/bin/sh\n[ \"$1\" = --version ] && exit\n"
+                                       "out=$(sed -n \"s/^set output '\\(.*\\)'/\\1/p\")\nprintf '") +
+                               drawn + "' >\"$out\"\n");
+    expect_error(4, "replay a.csv -r histogram --truth truth.npy --out other",
+                 "other/error.svg: cannot write: gnuplot's picture is not whole",
+                 fmt::format("PATH='{}':\"$PATH\"", path("").string()));
+    EXPECT_FALSE(std::filesystem::exists(path("other/error.svg.gnuplot")));
+    EXPECT_FALSE(std::filesystem::exists(path("other/error.svg")));
+  }
 }
 
 TEST_F(Outputs, PicturesDoNotDependOnTheNumberOfThreads) {

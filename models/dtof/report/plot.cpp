@@ -289,7 +289,7 @@ void write_plot(const std::filesystem::path& path, const std::vector<PlotSeries>
   std::string picture;
   try {
     run_gnuplot(path, gnuplot_script(drawn, series, layout));
-    picture = read_file(drawn);
+    picture = std::filesystem::file_size(drawn) == 0 ? "" : read_file(drawn);
   } catch (...) {
     std::filesystem::remove(drawn, ignored);
     throw;
