@@ -148,6 +148,15 @@ void add_texts(CLI::App& app, const std::string& name) {
       fmt::format("a man page: {} --man | man -l -", name));
 }
 
+bool is_interrupted() {
+  try {
+    check_interruption();
+    return false;
+  } catch (const Interrupted&) {
+    return true;
+  }
+}
+
 /// A file's name, or what stands in the file, may hold line ends and terminal codes.
 std::string in_one_line(std::string text) {
   std::ranges::replace_if(
@@ -209,6 +218,7 @@ void run_command_line(CLI::App& app, int count, const char* const* arguments) {
 int run_program(const Program& program, int count, const char* const* arguments) {
   open_closed_streams();
   install_interruption_handler();
+  let_signals_end_waiting();
   const auto fail = [&](int code, const std::string& reason) {
     print_error_line(fmt::format("{}: error: {}", program.name, reason));
     return code;
@@ -230,6 +240,9 @@ int run_program(const Program& program, int count, const char* const* arguments)
   } catch (const Interrupted& error) {
     return fail(kExitInterrupted, error.what());
   } catch (const std::system_error& error) {
+    if (is_interrupted()) {
+      return fail(kExitInterrupted, Interrupted().what());
+    }
     // fmt says of a stream that takes no more: "cannot write to file: <reason>".
     return fail(kExitFailure, std::ferror(stdout) != 0
                                   ? "standard output: cannot write: " + error.code().message()

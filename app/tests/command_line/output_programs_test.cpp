@@ -165,5 +165,16 @@ TEST_F(Outputs, RecordingsHaveAcquisitions) {
   expect_error(1, replay + "--t-int 0", "--t-int: 0 is not above 0");
 }
 
+TEST_F(Outputs, AnInterruptionEndsTheWaitForAPipe) {
+  ASSERT_EQ(run_shell(fmt::format("mkfifo '{}'", path("pipe").string())).exit_code, 0);
+  const std::string soon = "timeout --preserve-status --signal INT --kill-after 5 0.5";
+  for (const char* command : {"convert pipe a.npz", "replay pipe -r sifh --format csv", "frame --depth pipe",
+                              "replay pipe -r sifh --format picoquant"}) {
+    expect_error(130, command, "interrupted", soon);
+    expect_error(130, command, "interrupted",
+                 "{ timeout 2 sh -c 'sleep 2 >pipe' >/dev/null 2>&1 & } && " + soon);
+  }
+}
+
 }  // namespace
 }  // namespace dtof

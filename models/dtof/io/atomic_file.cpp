@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/progress.hpp"
 #include "dtof/io/output_error.hpp"
 
 namespace dtof {
@@ -140,6 +141,7 @@ void AtomicFile::fail(const std::string& reason) const {
 void AtomicFile::flush() {
   std::string_view rest = buffer_;
   while (!rest.empty()) {
+    check_interruption();
     const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
     if (written < 0) {
       if (errno == EINTR) {

@@ -3,12 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstddef>
-#include <cstdio>
-#include <memory>
 #include <string_view>
 #include <system_error>
 
@@ -17,10 +13,6 @@
 
 namespace dtof {
 namespace {
-
-struct FileCloser {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 void check_length(const std::filesystem::path& path, std::size_t bytes, std::size_t longest) {
   if (bytes > longest) {
@@ -35,17 +27,7 @@ void fail_in_file(const std::filesystem::path& path, std::string_view reason) {
 }
 
 std::string read_file(const std::filesystem::path& path, std::size_t longest) {
-  if (std::error_code error; std::filesystem::is_directory(path, error)) {
-    throw InputError(fmt::format("{}: cannot read: it is a directory", path.string()));
-  }
-  if (std::error_code error; std::filesystem::is_character_file(path, error)) {
-    throw InputError(fmt::format("{}: cannot read: it is a device", path.string()));
-  }
-  const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rbe"));
-  if (!file) {
-    throw InputError(
-        fmt::format("{}: cannot read: {}", path.string(), std::generic_category().message(errno)));
-  }
+  InputBytes file(path);
   std::string contents;
   if (std::error_code error; const auto size = std::filesystem::file_size(path, error)) {
     if (!error) {
@@ -54,13 +36,10 @@ std::string read_file(const std::filesystem::path& path, std::size_t longest) {
     }
   }
   std::array<char, std::size_t{1} << 16U> chunk{};
-  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
+  for (std::size_t count = chunk.size(); count == chunk.size();) {
+    count = file.read(chunk);
     contents.append(chunk.data(), count);
     check_length(path, contents.size(), longest);
-  }
-  if (std::ferror(file.get()) != 0) {
-    throw InputError(
-        fmt::format("{}: cannot read: {}", path.string(), std::generic_category().message(errno)));
   }
   if (contents.empty()) {
     throw InputError(fmt::format("{}: the file is empty", path.string()));

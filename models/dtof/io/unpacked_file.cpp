@@ -13,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "dtof/core/progress.hpp"
 #include "dtof/io/input_file.hpp"
 
 namespace dtof {
@@ -34,7 +35,11 @@ int open_input(const std::filesystem::path& path) {
   if (std::filesystem::is_character_file(path, error)) {
     fail_in_file(path, "cannot read: it is a device");
   }
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  int descriptor = -1;
+  do {
+    check_interruption();
+    descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);  // waits for the other end of a pipe
+  } while (descriptor < 0 && errno == EINTR);
   if (descriptor < 0) {
     fail_to_read(path);
   }
@@ -114,20 +119,35 @@ void GzipUnpacker::finish() const {
 
 bool is_gzip(std::string_view start) { return start.starts_with(kGzipMagic); }
 
-UnpackedFile::UnpackedFile(std::filesystem::path path)
-    : path_(std::move(path)), descriptor_(open_input(path_)) {
-  try {
-    refill();
-    if (is_gzip(rest_)) {
-      unpacker_ = std::make_unique<GzipUnpacker>(path_);
+InputBytes::InputBytes(std::filesystem::path path) : path_(std::move(path)), descriptor_(open_input(path_)) {}
+
+InputBytes::~InputBytes() { ::close(descriptor_); }
+
+std::size_t InputBytes::read(std::span<char> bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {  // a pipe gives fewer bytes than it is asked for
+    check_interruption();
+    const ssize_t count = ::read(descriptor_, &bytes[done], bytes.size() - done);
+    if (count < 0 && errno == EINTR) {
+      continue;
     }
-  } catch (...) {
-    ::close(descriptor_);
-    throw;
+    if (count < 0) {
+      fail_to_read(path_);
+    }
+    if (count == 0) {
+      break;
+    }
+    done += static_cast<std::size_t>(count);
   }
+  return done;
 }
 
-UnpackedFile::~UnpackedFile() { ::close(descriptor_); }
+UnpackedFile::UnpackedFile(std::filesystem::path path) : file_(path) {
+  refill();
+  if (is_gzip(rest_)) {
+    unpacker_ = std::make_unique<GzipUnpacker>(std::move(path));
+  }
+}
 
 std::size_t UnpackedFile::read(std::span<char> bytes) {
   std::size_t done = 0;
@@ -153,24 +173,9 @@ std::size_t UnpackedFile::read(std::span<char> bytes) {
   return done;
 }
 
-/// `rest_` is empty. A pipe gives fewer bytes than it is asked for.
 void UnpackedFile::refill() {
   buffer_.resize(kPackedPiece);
-  std::size_t done = 0;
-  while (done < buffer_.size()) {
-    const ssize_t count = ::read(descriptor_, &buffer_[done], buffer_.size() - done);
-    if (count < 0 && errno == EINTR) {
-      continue;
-    }
-    if (count < 0) {
-      fail_to_read(path_);
-    }
-    if (count == 0) {
-      break;
-    }
-    done += static_cast<std::size_t>(count);
-  }
-  buffer_.resize(done);
+  buffer_.resize(file_.read(buffer_));
   rest_ = buffer_;
 }
 

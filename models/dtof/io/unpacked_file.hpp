@@ -41,9 +41,28 @@ class GzipUnpacker {
 /// True for data that begin as gzip does.
 bool is_gzip(std::string_view start);
 
+/// The bytes of a file, read once from beginning to end, so it may be a pipe. Throws InputError
+/// "<path>: cannot read: <reason>" for a file that is missing, unreadable, a directory or a device, and
+/// Interrupted for a signal, also while it waits.
+class InputBytes {
+ public:
+  explicit InputBytes(std::filesystem::path path);
+  InputBytes(const InputBytes&) = delete;
+  InputBytes& operator=(const InputBytes&) = delete;
+  InputBytes(InputBytes&&) = delete;
+  InputBytes& operator=(InputBytes&&) = delete;
+  ~InputBytes();
+
+  /// Returns the number of bytes that it read: fewer than `bytes` has only at the end of the file.
+  std::size_t read(std::span<char> bytes);
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_;
+};
+
 /// A file, plain or gzip, read once from beginning to end, so it may be larger than memory or a pipe. Throws
-/// InputError "<path>: <reason>" for a file that is missing, unreadable, a directory or a device, and for
-/// damaged gzip data.
+/// as InputBytes, and InputError for damaged gzip data.
 class UnpackedFile {
  public:
   explicit UnpackedFile(std::filesystem::path path);
@@ -51,16 +70,16 @@ class UnpackedFile {
   UnpackedFile& operator=(const UnpackedFile&) = delete;
   UnpackedFile(UnpackedFile&&) = delete;
   UnpackedFile& operator=(UnpackedFile&&) = delete;
-  ~UnpackedFile();
+  ~UnpackedFile() = default;
 
   /// Returns the number of bytes that it read: fewer than `bytes` has only at the end of the file.
   std::size_t read(std::span<char> bytes);
 
  private:
+  /// `rest_` is empty.
   void refill();
 
-  std::filesystem::path path_;
-  int descriptor_;
+  InputBytes file_;
   std::string buffer_;
   std::string_view rest_;  ///< of `buffer_`
   std::unique_ptr<GzipUnpacker> unpacker_;

@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/progress.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/input_file.hpp"
 #include "dtof/io/output_error.hpp"
@@ -255,6 +256,7 @@ void run_gnuplot(const std::filesystem::path& path, const std::string& script) {
     fmt::print(pipe.get(), "{}", script);
   }
   if (status != 0) {
+    check_interruption();  // which gnuplot may have got, too
     throw InputError(fmt::format("{}: cannot plot: gnuplot failed (is it installed?){}", path.string(),
                                  last_complaint(complaints)));
   }
