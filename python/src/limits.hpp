@@ -12,7 +12,7 @@ namespace dtof::python {
 /// Each throws InputError for what the program `dtof` refuses, with the program's sentence.
 void check_klux(double klux);
 void check_threads(int threads);
-/// Of a precision; no other frame has them.
+/// The arguments of a precision.
 void check_precision(const std::optional<double>& percent, int max_frames);
 /// A number of a sensor, by its key in sensor files; none is legal.
 void check_sensor_number(std::string_view key, const std::optional<std::int64_t>& value);

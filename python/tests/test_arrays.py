@@ -155,7 +155,8 @@ class ArrayTest(unittest.TestCase):
         for change, sentence in cases:
             with self.subTest(sentence), self.assertRaisesRegex(ValueError, sentence):
                 dtof.event_list(**(good | size | change))
-        dtof.event_list(**(good | {"timestamp": [10.0, 20.0]} | size))  # whole
+        whole: dict[str, Any] = good | size | {"timestamp": [10.0, 20.0]}
+        dtof.event_list(**whole)
         with self.assertRaisesRegex(ValueError, "acquisition 3 has more than 2 events"):
             dtof.event_list([0] * 3, [0] * 3, [3] * 3, [1, 2, 3], columns=1, rows=1, acquisitions=6)
 

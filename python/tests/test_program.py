@@ -223,8 +223,9 @@ class ProgramTest(unittest.TestCase):
             ({"fidelity": "analytic", "precision_percent": 5.0}, ValueError, "precision_percent has no effect: the analytic photon model"),
             ({"readouts": [3]}, TypeError, "3 is neither the name of a read-out nor a dtof.Readout")]
         for options, error, sentence in cases:
+            own: dict[str, Any] = {"readouts": ["sifh"], "table": "none", **options}
             with self.subTest(sentence), self.assertRaisesRegex(error, sentence):
-                dtof.frame(scene, **({"readouts": ["sifh"], "table": "none"} | options))
+                dtof.frame(scene, **own)
 
 
 if __name__ == "__main__":
