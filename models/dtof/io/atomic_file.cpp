@@ -33,6 +33,17 @@ mode_t default_mode() {
   return static_cast<mode_t>(S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH) & ~mask;
 }
 
+/// Where links lead whose last one names no file yet.
+std::filesystem::path end_of_links(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;  // as Linux has it
+  std::error_code error;
+  for (int links = 0; links < kMostLinks && std::filesystem::is_symlink(path, error); ++links) {
+    const std::filesystem::path next = std::filesystem::read_symlink(path, error);
+    path = path.parent_path() / next;  // which is `next` if that is absolute
+  }
+  return path;
+}
+
 }  // namespace
 
 struct AtomicFile::Packer {
@@ -58,6 +69,9 @@ AtomicFile::AtomicFile(std::filesystem::path target, Packing packing)
       packer_(packing == Packing::kGzip ? std::make_unique<Packer>() : nullptr) {
   std::error_code error;
   const auto status = std::filesystem::status(target_, error);
+  if (error == std::errc::too_many_symbolic_link_levels) {
+    fail(error.message());
+  }
   if (std::filesystem::is_directory(status)) {
     fail("it is a directory");
   }
@@ -73,6 +87,8 @@ AtomicFile::AtomicFile(std::filesystem::path target, Packing packing)
       fail(errno_text());
     }
     final_ = std::filesystem::canonical(target_);
+  } else {
+    final_ = end_of_links(target_);
   }
   std::string name = (final_.parent_path() / fmt::format(".{}.XXXXXX", final_.filename().string())).string();
   descriptor_ = ::mkstemp(name.data());

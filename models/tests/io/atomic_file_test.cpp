@@ -78,6 +78,23 @@ TEST_F(AtomicFileTest, KeepsASymbolicLink) {
   EXPECT_EQ(contents(file), "new");
 }
 
+TEST_F(AtomicFileTest, WritesTheFileThatALinkNamesAndThatIsNotThereYet) {
+  std::filesystem::create_directory(path("folder"));
+  std::filesystem::create_symlink("folder/second", path("first"));
+  std::filesystem::create_symlink("file", path("folder/second"));
+  write_file(path("first"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(path("first")));
+  EXPECT_TRUE(std::filesystem::is_symlink(path("folder/second")));
+  EXPECT_EQ(contents(path("folder/file")), "new");
+  std::filesystem::create_symlink(path("none/file"), path("dead"));
+  test::expect_input_error([&] { write_file(path("dead"), "new"); },
+                           path("dead").string() + ": cannot write: No such file or directory");
+  std::filesystem::create_symlink("self", path("self"));
+  test::expect_input_error([&] { write_file(path("self"), "new"); },
+                           path("self").string() + ": cannot write: Too many levels of symbolic links");
+  EXPECT_TRUE(std::filesystem::is_symlink(path("self")));
+}
+
 TEST_F(AtomicFileTest, WritesToADeviceDirectly) {
   write_file("/dev/null", "x");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
