@@ -165,6 +165,16 @@ TEST_F(Outputs, RecordingsHaveAcquisitions) {
   expect_error(1, replay + "--t-int 0", "--t-int: 0 is not above 0");
 }
 
+TEST_F(Outputs, OtherFilesOfTheOutputFolderDoNotMatter) {
+  std::filesystem::create_symlink("self", path("self"));
+  const std::string frame = fmt::format("frame -r ezpointer {} --out .", kSmall);
+  const Outcome outcome = dtof(frame);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  const Outcome json = dtof(frame + " --json 2>/dev/null");
+  EXPECT_EQ(json.exit_code, 0);
+  EXPECT_THAT(json.output, HasSubstr("\"ezpointer.csv\""));
+}
+
 TEST_F(Outputs, AnInterruptionEndsTheWaitForAPipe) {
   ASSERT_EQ(run_shell(fmt::format("mkfifo '{}'", path("pipe").string())).exit_code, 0);
   const std::string soon = "timeout --preserve-status --signal INT --kill-after 5 0.5";
