@@ -445,6 +445,13 @@ void write_product(const std::map<std::string, std::string>& files, const std::f
     if (error) {
       fail(target);
     }
+  } catch (const OutputError& failure) {
+    std::filesystem::remove_all(partial, error);
+    std::string reason = failure.what();
+    if (reason.starts_with(partial.string())) {  // a name that the user did not give
+      reason.replace(0, partial.string().size(), target.string());
+    }
+    throw OutputError(reason);
   } catch (...) {
     std::filesystem::remove_all(partial, error);
     throw;
