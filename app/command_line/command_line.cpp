@@ -103,7 +103,8 @@ std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
     return fmt::format("{}{} `{} {}--help` lists the options", context, unknown, app.get_name(),
                        parsed.empty() ? "" : command.get_name() + " ");
   }
-  if (parsed.empty() && !subcommands(app).empty()) {
+  if (parsed.empty() && !subcommands(app).empty() &&
+      dynamic_cast<const CLI::ValidationError*>(&error) == nullptr) {
     return fmt::format("no command is given; known are {}; `{} --help` explains them",
                        fmt::join(command_names(app), ", "), app.get_name());
   }

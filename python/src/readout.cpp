@@ -112,6 +112,10 @@ ReadoutParameters make_readout(const std::string& name, const std::optional<Sens
     set_parameter(parameters, letters(word, std::toupper), whole_number(value, word));
   }
   if (code_gate) {
+    if (code_gate->first >= code_gate->second) {
+      throw InputError(
+          fmt::format("code_gate: no code is at least {} and below {}", code_gate->first, code_gate->second));
+    }
     parameters.time_gate = CodeGate{code_gate->first, code_gate->second};
   }
   parameters.validate();

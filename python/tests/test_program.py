@@ -171,6 +171,8 @@ class ProgramTest(unittest.TestCase):
             (lambda: dtof.frame("rum"), ["--scene", "rum"]),
             (lambda: dtof.frame(readouts=["sfih"]), ["--readout", "sfih"]),
             (lambda: dtof.Readout("sifh", nb=11), ["--readout", "sifh", "--nb", 11])]
+        with self.assertRaisesRegex(ValueError, "code_gate: no code is at least 5 and below 5"):
+            dtof.Readout("sifh", code_gate=(5, 5))
         for call, options in cases:
             with self.assertRaises(ValueError) as raised:
                 call()

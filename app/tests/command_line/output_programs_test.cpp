@@ -175,6 +175,14 @@ TEST_F(Outputs, OtherFilesOfTheOutputFolderDoNotMatter) {
   EXPECT_THAT(json.output, HasSubstr("\"ezpointer.csv\""));
 }
 
+TEST_F(Outputs, OptionsWithoutSenseAreRefused) {
+  const std::string frame = fmt::format("frame -r sifh {} --out out ", kSmall);
+  expect_error(1, frame + "--code-gate 5 1", "--code-gate: no code is at least 5 and below 1");
+  expect_error(1, frame + "--code-gate 5 5", "--code-gate: no code is at least 5 and below 5");
+  expect_error(1, "--completion zsh", "--completion: zsh not in {bash}");
+  expect_error(1, "--json", "`dtof --help` explains them");
+}
+
 TEST_F(Outputs, AnInterruptionEndsTheWaitForAPipe) {
   ASSERT_EQ(run_shell(fmt::format("mkfifo '{}'", path("pipe").string())).exit_code, 0);
   const std::string soon = "timeout --preserve-status --signal INT --kill-after 5 0.5";
