@@ -23,6 +23,7 @@
 #include "dtof/core/error.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/core/suggestion.hpp"
+#include "dtof/io/output_error.hpp"
 #include "rtl/error.hpp"
 
 namespace dtof {
@@ -102,7 +103,8 @@ std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
     return fmt::format("{}{} `{} {}--help` lists the options", context, unknown, app.get_name(),
                        parsed.empty() ? "" : command.get_name() + " ");
   }
-  if (parsed.empty() && !subcommands(app).empty()) {
+  if (parsed.empty() && !subcommands(app).empty() &&
+      dynamic_cast<const CLI::ValidationError*>(&error) == nullptr) {
     return fmt::format("no command is given; known are {}; `{} --help` explains them",
                        fmt::join(command_names(app), ", "), app.get_name());
   }
@@ -145,6 +147,15 @@ void add_texts(CLI::App& app, const std::string& name) {
   app.add_flag_callback(
       "--man", [&app] { throw CLI::CallForVersion(man_page(app, DTOF_VERSION), 0); },
       fmt::format("a man page: {} --man | man -l -", name));
+}
+
+bool is_interrupted() {
+  try {
+    check_interruption();
+    return false;
+  } catch (const Interrupted&) {
+    return true;
+  }
 }
 
 /// A file's name, or what stands in the file, may hold line ends and terminal codes.
@@ -208,6 +219,7 @@ void run_command_line(CLI::App& app, int count, const char* const* arguments) {
 int run_program(const Program& program, int count, const char* const* arguments) {
   open_closed_streams();
   install_interruption_handler();
+  let_signals_end_waiting();
   const auto fail = [&](int code, const std::string& reason) {
     print_error_line(fmt::format("{}: error: {}", program.name, reason));
     return code;
@@ -220,6 +232,8 @@ int run_program(const Program& program, int count, const char* const* arguments)
       return fail(kExitFailure, "standard output: cannot write: " + reason);
     }
     return 0;
+  } catch (const OutputError& error) {
+    return fail(kExitFailure, in_one_line(error.what()));
   } catch (const InputError& error) {
     return fail(kExitInputError, in_one_line(error.what()));
   } catch (const RtlError& error) {
@@ -227,6 +241,9 @@ int run_program(const Program& program, int count, const char* const* arguments)
   } catch (const Interrupted& error) {
     return fail(kExitInterrupted, error.what());
   } catch (const std::system_error& error) {
+    if (is_interrupted()) {
+      return fail(kExitInterrupted, Interrupted().what());
+    }
     // fmt says of a stream that takes no more: "cannot write to file: <reason>".
     return fail(kExitFailure, std::ferror(stdout) != 0
                                   ? "standard output: cannot write: " + error.code().message()

@@ -89,8 +89,11 @@ class FolderResult {
   [[nodiscard]] std::vector<std::filesystem::path> written(const std::filesystem::path& out) const {
     std::vector<std::filesystem::path> files;
     if (std::filesystem::is_directory(out)) {
-      for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
-        if (entry.is_regular_file() && entry.last_write_time() >= begin_) {
+      // The folder may have other files, some of which cannot be read.
+      constexpr auto kOptions = std::filesystem::directory_options::skip_permission_denied;
+      std::error_code error;
+      for (const auto& entry : std::filesystem::recursive_directory_iterator(out, kOptions)) {
+        if (entry.is_regular_file(error) && entry.last_write_time(error) >= begin_) {
           files.push_back(entry.path());
         }
       }

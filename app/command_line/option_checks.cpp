@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "dtof/core/error.hpp"
-#include "dtof/pipeline/frame_pipeline.hpp"
+#include "dtof/pipeline/frame_limits.hpp"
 
 namespace dtof {
 namespace {
@@ -109,27 +109,40 @@ CLI::Validator within(double lowest, double highest, const std::string& reason) 
             if (std::string error = read_number(text, value); !error.empty()) {
               return error;
             }
-            return value >= lowest && value <= highest
-                       ? std::string()
-                       : fmt::format("{} is not within {} to {}", text, lowest, reason);
+            return value >= lowest && value <= highest ? std::string() : not_within(text, lowest, reason);
           },
           ""};
 }
 
-CLI::Validator sensible_klux() { return within(0.0, 200.0, "200 klux: the brightest sunlight is about 130"); }
+namespace {
 
-std::string reflectivity_reason() {
-  return fmt::format(
-      "{0:g}: a white matt surface is 1, a glint is more, and the photon models are checked up to {0:g}",
-      kMostReflectivity);
+/// Above 0, up to `most`, which is a second.
+CLI::Validator up_to_a_second(double most, const std::string& unit) {
+  return {[most, unit](std::string& text) {
+            double value = 0.0;
+            if (std::string error = read_number(text, value); !error.empty()) {
+              return error;
+            }
+            return value <= 0.0   ? fmt::format("{} is not above 0", text)
+                   : value > most ? fmt::format("{} is above {} {}, a second", text, most, unit)
+                                  : std::string();
+          },
+          ""};
 }
+
+}  // namespace
+
+CLI::Validator duration_ps() { return up_to_a_second(1e12, "ps"); }
+
+CLI::Validator duration_ns() { return up_to_a_second(1e9, "ns"); }
+
+CLI::Validator shift_ns() { return within(-1e9, 1e9, "1000000000 ns, a second"); }
+
+CLI::Validator sensible_klux() { return within(0.0, kMostKlux, klux_reason()); }
 
 CLI::Validator sensible_reflectivity() { return within(0.0, kMostReflectivity, reflectivity_reason()); }
 
-CLI::Validator sensible_acquisitions() {
-  return within(1.0, kMostAcquisitions,
-                fmt::format("{}: the detections of a frame's columns are held in memory", kMostAcquisitions));
-}
+CLI::Validator sensible_acquisitions() { return within(1.0, kMostAcquisitions, acquisitions_reason()); }
 
 CLI::Validator sensible_frame_rate() { return within(0.001, 1e6, "1000000 frames/s"); }
 

@@ -16,12 +16,13 @@ CLI::Validator sensible_klux();
 /// Any number above 0, or of at least 0.
 CLI::Validator above_zero();
 CLI::Validator not_negative();
-/// Largest reflectivity for which the photon models are checked.
-inline constexpr double kMostReflectivity = 4.0;
-/// End of an error text: "4: a white matt surface is 1, ...".
-std::string reflectivity_reason();
+/// Accept times of recordings: a duration above 0 up to a second, in ps or ns, and a shift in ns of at most a
+/// second.
+CLI::Validator duration_ps();
+CLI::Validator duration_ns();
+CLI::Validator shift_ns();
 CLI::Validator sensible_reflectivity();
-/// Accepts a number of acquisitions up to kMostAcquisitions (pipeline/frame_pipeline.hpp).
+/// Accepts a number of acquisitions up to kMostAcquisitions (pipeline/frame_limits.hpp).
 CLI::Validator sensible_acquisitions();
 /// Accept frames/s and MHz between those of any sensor and any array.
 CLI::Validator sensible_frame_rate();

@@ -109,6 +109,10 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
       chosen.push_back(parse_readout(name));
     }
   }
+  if (!code_gate.empty() && code_gate[0] >= code_gate[1]) {
+    throw InputError(
+        fmt::format("--code-gate: no code is at least {} and below {}", code_gate[0], code_gate[1]));
+  }
   for (const auto& [name, number] : values) {
     const bool for_all = name == "NP" || name == "SLOTS";
     if (!for_all &&

@@ -11,6 +11,7 @@
 #include "command_line/option_checks.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/io/depth_image.hpp"
+#include "dtof/pipeline/frame_limits.hpp"
 #include "dtof/scene/scene.hpp"
 
 namespace dtof {

@@ -23,9 +23,9 @@ void add_recording_options(CLI::App& command, RecordingOptions& recording,
       ->check(CLI::IsMember(recording_formats()))
       ->capture_default_str();
   command.add_option("--bin-width", bin_width_ps, "histograms of arrays, logs: width of a bin in ps")
-      ->check(above_zero());
+      ->check(duration_ps());
   command.add_option("--tick", tick_ps, "MAT: duration of a tick in ps")
-      ->check(above_zero())
+      ->check(duration_ps())
       ->capture_default_str();
   command.add_option("--variable", recording.variable, "MAT: name of the cell array")->capture_default_str();
 }

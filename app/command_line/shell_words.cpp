@@ -16,6 +16,22 @@ bool is_plain(unsigned char letter) {
          std::string_view("-_./,:=+@%^").find(static_cast<char>(letter)) != std::string_view::npos;
 }
 
+/// Up to the first blank that shell_word did not quote.
+std::size_t first_word_length(std::string_view command) {
+  bool quoted = false;
+  bool escapes = false;  ///< inside $'...'
+  std::size_t at = 0;
+  for (; at < command.size() && (quoted || command[at] != ' '); ++at) {
+    if (command[at] == '\\' && (!quoted || escapes)) {
+      ++at;
+    } else if (command[at] == '\'') {
+      escapes = !quoted && at > 0 && command[at - 1] == '$';
+      quoted = !quoted;
+    }
+  }
+  return std::min(at, command.size());
+}
+
 }  // namespace
 
 std::string shell_word(std::string_view word) {
@@ -46,6 +62,22 @@ std::string shell_command(std::string_view program, std::span<const char* const>
     command += " " + shell_word(argument);
   }
   return command;
+}
+
+std::string without_threads(std::string_view command) {
+  std::string kept;
+  bool value_follows = false;
+  while (!command.empty()) {
+    const std::size_t length = first_word_length(command);
+    const std::string_view word = command.substr(0, length);
+    command.remove_prefix(std::min(length + 1, command.size()));
+    const bool alone = word == "--threads" || word == "-j";
+    if (!alone && !value_follows && !word.starts_with("--threads=") && !word.starts_with("-j")) {
+      kept += (kept.empty() ? "" : " ") + std::string(word);
+    }
+    value_follows = alone && !value_follows;
+  }
+  return kept;
 }
 
 }  // namespace dtof

@@ -14,4 +14,8 @@ std::string shell_word(std::string_view word);
 /// Quotes a command line for pasting into a shell.
 std::string shell_command(std::string_view program, std::span<const char* const> arguments);
 
+/// The same command without -j, --threads and their value: no result depends on them, so no picture names
+/// them.
+std::string without_threads(std::string_view command);
+
 }  // namespace dtof

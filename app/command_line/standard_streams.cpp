@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <system_error>
 #include <utility>
@@ -19,6 +20,16 @@ void open_closed_streams() {
     if (::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {
       (void)::open("/dev/null",
                    kModes.at(static_cast<std::size_t>(descriptor)));  // NOLINT(android-cloexec-open)
+    }
+  }
+}
+
+void let_signals_end_waiting() {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    if (::sigaction(signal, nullptr, &action) == 0) {
+      action.sa_flags &= ~SA_RESTART;
+      (void)::sigaction(signal, &action, nullptr);
     }
   }
 }

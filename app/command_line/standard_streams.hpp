@@ -5,6 +5,10 @@
 
 namespace dtof {
 
+/// Lets SIGINT and SIGTERM end a call that waits, for instance for the bytes of a pipe. Their handler
+/// (core/progress.hpp) alone would let the call go on.
+void let_signals_end_waiting();
+
 /// Opens substitutes for closed standard streams, so that no other file gets their numbers. Text for standard
 /// error is then dropped; writing to standard output fails.
 void open_closed_streams();

@@ -119,13 +119,13 @@ void add_convert_command(CLI::App& app, const std::string& command_line) {
   command->add_flag("--text", options->conversion.text, ".ply, .pcd: numbers as text");
   command
       ->add_option("--bin-width", options->bin_width_ps, "histograms of arrays, logs: width of a bin in ps")
-      ->check(above_zero());
+      ->check(duration_ps());
   command->add_option("--variable", recording.variable, "MAT: name of the variable")->capture_default_str();
   command->add_option("--tick", options->tick_ps, "photon times: duration of a tick in ps")
-      ->check(above_zero())
+      ->check(duration_ps())
       ->capture_default_str();
   command->add_option("--t-int", options->t_int_ns, "T_int in ns; T_res = T_int / 2^NP")
-      ->check(above_zero())
+      ->check(duration_ns())
       ->capture_default_str();
   command->add_option("--np", recording.resampling.np, "bits of a timestamp")
       ->check(CLI::Range(1, 16))
@@ -134,7 +134,9 @@ void add_convert_command(CLI::App& app, const std::string& command_line) {
       ->add_option("--slots", recording.resampling.slots, "TDC stream: events kept per pixel and acquisition")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
-  command->add_option("--shift", options->shift_ns, "ns to add to every time")->capture_default_str();
+  command->add_option("--shift", options->shift_ns, "ns to add to every time")
+      ->check(shift_ns())
+      ->capture_default_str();
   command->add_option("-a,--acquisitions", recording.acquisitions, "TDC stream: laser pulses per frame")
       ->check(sensible_acquisitions());
   command->add_option("--photons", recording.resampling.photon_budget,

@@ -18,6 +18,7 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "command_line/shell_words.hpp"
 #include "commands/commands.hpp"
 #include "commands/filtered_frame.hpp"
 #include "commands/frame_scene.hpp"
@@ -203,13 +204,13 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const Region& regi
   const int pixel_size = truth.width >= 100 ? 1 : 0;
   write_map_picture(folder / "overview.png", depths,
                     {.title = "Depth in m: " + title,
-                     .caption = options.command_line,
+                     .caption = without_threads(options.command_line),
                      .panels_per_row = 4,
                      .pixel_size = pixel_size,
                      .depth_range = depth_range});
   write_map_picture(folder / "errors.png", errors,
                     {.title = "Error in m: " + title,
-                     .caption = options.command_line,
+                     .caption = without_threads(options.command_line),
                      .panels_per_row = 4,
                      .pixel_size = pixel_size,
                      .largest_error = kLargestError});

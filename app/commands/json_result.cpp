@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -24,9 +25,15 @@ JsonResult::JsonResult(bool wanted, const std::string& command, const std::strin
 }
 
 void JsonResult::add_folder(const std::filesystem::path& out) {
+  if (!output_) {
+    return;
+  }
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
-    if (entry.is_regular_file()) {
+  // The folder may have other files, some of which cannot be read.
+  constexpr auto kOptions = std::filesystem::directory_options::skip_permission_denied;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out, kOptions)) {
+    if (entry.is_regular_file(error)) {
       files.push_back(std::filesystem::relative(entry.path(), out).string());
     }
   }

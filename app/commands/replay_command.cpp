@@ -323,21 +323,27 @@ std::string drop_unjudged(Recording& recording, const Region& region, const Repl
 
 /// What is lost of a measurement because it lies outside the range; empty if nothing is. Throws InputError if
 /// everything is.
-std::string lost_photons_sentence(const Recording& recording, const Region& region,
-                                  const ReplayOptions& options) {
+std::string lost_of_region(const Recording& recording, const Region& region, const ReplayOptions& options) {
   const auto* measured = dynamic_cast<const ResampledStream*>(recording.source.get());
-  const PhotonCount photons =
-      measured == nullptr ? PhotonCount() : measured->count_photons(region.columns, region.rows);
-  const std::string range = fmt::format("0 to {:g} ns", options.t_int_ns);
-  if (photons.all > 0 && photons.outside == photons.all) {
-    throw InputError(
-        fmt::format("{}: all {} photons of the pixels read are outside the range, {}: --t-int and "
-                    "--shift move it",
-                    options.recording.file, photons.all, range));
+  if (measured == nullptr) {
+    return "";
   }
-  return photons.outside == 0 ? ""
-                              : fmt::format(" {} of {} photons are outside the range, {}, and lost.",
-                                            photons.outside, photons.all, range);
+  const std::string sentence = lost_photons_sentence(
+      options.recording.file, measured->count_photons(region.columns, region.rows), options.t_int_ns * 1e-9);
+  return sentence.empty() ? "" : fmt::format(" {}.", sentence);
+}
+
+/// How many of a TDC stream's detections a region has; empty for other recordings, and for the whole stream.
+std::string read_part(const Recording& recording, const Region& region) {
+  const auto* const stream = dynamic_cast<const RecordedStream*>(recording.source.get());
+  if (stream == nullptr) {
+    return "";
+  }
+  std::size_t read = 0;
+  for (const int column : region.columns) {
+    read += stream->column_rows(column, region.rows).detection_count();
+  }
+  return read == stream->detection_count() ? "" : fmt::format(", {} of them in the pixels read", read);
 }
 
 /// The read-outs, and their offset where they were compared with a truth.
@@ -389,7 +395,7 @@ void run_replay_command(const ReplayOptions& options, RecordingFile file, JsonRe
     throw InputError(options.truth_file.empty() ? "--offset needs true distances: name a map with --truth"
                                                 : "--truth: the pixels read have no true distance");
   }
-  std::string losses = lost_photons_sentence(recording, region, options);
+  std::string losses = lost_of_region(recording, region, options);
   if (judged) {
     losses += drop_unjudged(recording, region, options);
     judged = has_truth(recording, region);
@@ -407,8 +413,9 @@ void run_replay_command(const ReplayOptions& options, RecordingFile file, JsonRe
     }
   }
   const std::string heading = fmt::format(
-      "{} ({}): {} columns x {} rows, {} acquisitions{}, engine {}{}, seed {}.{}\n", options.recording.file,
-      recording.description, region.columns.size(), region.rows.count, recording.source->acquisitions(),
+      "{} ({}{}): {} columns x {} rows, {} acquisitions{}, engine {}{}, seed {}.{}\n", options.recording.file,
+      recording.description, read_part(recording, region), region.columns.size(), region.rows.count,
+      recording.source->acquisitions(),
       options.photons ? fmt::format(", thinned to {:g} photons per pixel and frame", *options.photons) : "",
       options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
       losses);
@@ -439,8 +446,10 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
                    "recording; an array of an archive is file.npz:name, file.h5:/group/name or file.mat:name")
       ->required();
   add_recording_options(*command, options->recording, options->bin_width_ps, options->tick_ps);
-  command->add_option("-a,--acquisitions", options->recording.acquisitions,
-                      "laser pulses per frame (default: CSV: the last one recorded, else 3333)");
+  command
+      ->add_option("-a,--acquisitions", options->recording.acquisitions,
+                   "laser pulses per frame (default: CSV: the last one recorded, else 3333)")
+      ->check(CLI::Range(std::uint32_t{1}, std::numeric_limits<std::uint32_t>::max()));
   command
       ->add_option("--array-columns", options->recording.columns,
                    "CSV: columns of the sensor (default: up to the last detection)")
@@ -454,8 +463,10 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
                    "measured data: background events to add per acquisition and T_int")
       ->capture_default_str();
   command->add_option("--shift", options->shift_ns, "measured data: ns to add to every time")
+      ->check(shift_ns())
       ->capture_default_str();
   command->add_option("--t-int", options->t_int_ns, "T_int in ns; T_res = T_int / 2^NP")
+      ->check(duration_ns())
       ->capture_default_str();
   command->add_option(
       "--truth", options->truth_file,

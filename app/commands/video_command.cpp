@@ -16,6 +16,7 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "command_line/shell_words.hpp"
 #include "commands/commands.hpp"
 #include "commands/json_result.hpp"
 #include "commands/optional_output.hpp"
@@ -336,7 +337,8 @@ void read_videos(std::vector<Video>& videos, const std::vector<VideoReader>& rea
     }
     write_picture(folder / fmt::format("{}.svg", video.name()), video, estimators, sensor, plots_obstacle);
     sheet.write(folder / fmt::format("{}_depth.png", video.name()),
-                fmt::format("Depth in m: {}, sensor {}", video.description(), sensor), options.command_line);
+                fmt::format("Depth in m: {}, sensor {}", video.description(), sensor),
+                without_threads(options.command_line));
   }
 }
 

@@ -20,6 +20,7 @@
 #include "dtof/core/folded_source.hpp"
 #include "dtof/design/array_memories.hpp"
 #include "dtof/io/atomic_file.hpp"
+#include "dtof/io/output_error.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/photon/photon_source.hpp"
 #include "product/product_driver.hpp"
@@ -315,7 +316,7 @@ std::filesystem::path folder_beside(const std::filesystem::path& target) {
   create_output_folder(target.parent_path());
   std::string name = (target.parent_path() / fmt::format(".{}.XXXXXX", target.filename().string())).string();
   if (::mkdtemp(name.data()) == nullptr) {
-    throw InputError(
+    throw OutputError(
         fmt::format("{}: cannot write: {}", target.string(), std::generic_category().message(errno)));
   }
   const mode_t mask = ::umask(0);
@@ -430,7 +431,7 @@ void write_product(const std::map<std::string, std::string>& files, const std::f
   const std::filesystem::path partial = folder_beside(target);
   std::error_code error;
   const auto fail = [&](const std::filesystem::path& path) {
-    throw InputError(fmt::format("{}: cannot write: {}", path.string(), error.message()));
+    throw OutputError(fmt::format("{}: cannot write: {}", path.string(), error.message()));
   };
   try {
     for (const auto& [path, text] : files) {
@@ -444,6 +445,13 @@ void write_product(const std::map<std::string, std::string>& files, const std::f
     if (error) {
       fail(target);
     }
+  } catch (const OutputError& failure) {
+    std::filesystem::remove_all(partial, error);
+    std::string reason = failure.what();
+    if (reason.starts_with(partial.string())) {  // a name that the user did not give
+      reason.replace(0, partial.string().size(), target.string());
+    }
+    throw OutputError(reason);
   } catch (...) {
     std::filesystem::remove_all(partial, error);
     throw;

@@ -75,8 +75,8 @@ class Sensor:
 
 class Scene:
     def __init__(self, name: str = ..., sensor: Sensor | None = ..., *, columns: int | None = ..., rows: int | None = ...,
-                 reflectivity: float | npt.ArrayLike | None = ..., distance_m: float = ..., near_m: float = ..., far_m: float = ...,
-                 steps: int = ..., seed: int = ...) -> None: ...
+                 reflectivity: float | npt.ArrayLike | None = ..., distance_m: float | None = ...,
+                 near_m: float | None = ..., far_m: float | None = ..., steps: int | None = ..., seed: int = ...) -> None: ...
     @staticmethod
     def from_depth(depth_m: npt.ArrayLike, reflectivity: float | npt.ArrayLike = ..., *, columns: int | None = ...,
                    rows: int | None = ...) -> Scene: ...

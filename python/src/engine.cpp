@@ -18,6 +18,7 @@
 #include "dtof/pipeline/frame_pipeline.hpp"
 #include "src/arrays.hpp"
 #include "src/bindings.hpp"
+#include "src/limits.hpp"
 #include "src/photons.hpp"
 #include "src/readout.hpp"
 #include "src/rtl_engine.hpp"
@@ -46,6 +47,7 @@ py::array_t<double> Results::positions() const {
 std::unique_ptr<FrameEngine> make_engine(const std::string& name, const StreamSource& source,
                                          std::span<const ReadoutParameters> readouts, const Region& region,
                                          int threads, Progress::Observer observer) {
+  check_threads(threads);
   if (name == "model") {
     return std::make_unique<ModelEngine>(
         ModelEngine::Settings{.threads = threads, .observer = std::move(observer)});
@@ -101,6 +103,8 @@ py::array_t<double> for_each(const InputArray<double>& values, const Function& f
 
 RangeConverter flat_table(const py::object& readout, const SensorModel& sensor, double klux,
                           std::uint64_t seed, const std::string& fidelity, int threads) {
+  check_klux(klux);
+  check_threads(threads);
   const std::vector<ReadoutParameters> readouts = {to_readout(readout, sensor)};
   SensorModel seen = sensor;
   seen.np = readouts.front().np;

@@ -22,6 +22,7 @@
 #include "src/arrays.hpp"
 #include "src/bindings.hpp"
 #include "src/engine.hpp"
+#include "src/limits.hpp"
 #include "src/photons.hpp"
 #include "src/readout.hpp"
 #include "src/work.hpp"
@@ -170,6 +171,8 @@ std::vector<TabledReadout> given_tables(const std::vector<ReadoutParameters>& re
 
 Frame make_frame(const SceneMap& scene, SensorModel sensor, const std::vector<ReadoutParameters>& readouts,
                  const FrameChoice& choice, const py::object& progress) {
+  check_threads(choice.threads);
+  check_precision(choice.precision_percent, choice.max_frames);
   sensor.np = readouts.front().np;
   sensor.slots = readouts.front().slots;
   sensor.validate();
@@ -185,6 +188,8 @@ Frame make_frame(const SceneMap& scene, SensorModel sensor, const std::vector<Re
           before += done == total && !choice.precision_percent ? total : 0;
         });
     const Fidelity fidelity = frame_fidelity(choice.fidelity, choice.tolerance, photons, readouts, *engine);
+    refuse_without_effect(choice.precision_percent && fidelity == Fidelity::kAnalytic, "precision_percent",
+                          "the analytic photon model has no noise; choose exact, fast or auto");
     const FramePipeline pipeline(photons, *engine,
                                  {.region = region,
                                   .fidelity = fidelity,

@@ -6,6 +6,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,7 @@
 #include "dtof/recording/stream_csv.hpp"
 #include "src/arrays.hpp"
 #include "src/bindings.hpp"
+#include "src/limits.hpp"
 #include "src/work.hpp"
 
 namespace dtof::python {
@@ -32,6 +34,7 @@ using namespace py::literals;
 
 PhotonSource scene_photons(const SceneMap& scene, const SensorModel& sensor, double klux, std::uint64_t seed,
                            std::uint32_t frame) {
+  check_klux(klux);
   require_reachable(*scene.targets, sensor, "scene " + scene.name);
   return {sensor, *scene.targets, klux, seed, scene_frame(frame)};
 }
@@ -108,6 +111,7 @@ ColumnEvents column_events(const StreamSource& source, int column) {
 }
 
 py::dict all_events(const StreamSource& source, int threads, const py::object& progress) {
+  check_threads(threads);
   const auto width = static_cast<std::size_t>(source.columns());
   Events events = do_work(progress, [&](const Progress::Observer& observer) {
     std::vector<ColumnStream> streams(width);
@@ -137,6 +141,29 @@ py::dict all_events(const StreamSource& source, int threads, const py::object& p
 }
 
 using WholeNumbers = InputArray<std::int64_t>;
+
+/// The whole numbers of an array of any type. Throws InputError for numbers that are not whole, and for what
+/// is no number.
+WholeNumbers whole_numbers(const py::object& argument, const char* name) {
+  const py::array array = py::array::ensure(argument);
+  const char kind = array ? array.dtype().kind() : 'O';
+  if (kind == 'f') {
+    const auto numbers = InputArray<double>::ensure(array);
+    constexpr double kLargest = 0x1.0p53;
+    for (py::ssize_t i = 0; i < numbers.size(); ++i) {
+      const double number = numbers.data()[i];
+      if (!(std::abs(number) <= kLargest && std::floor(number) == number)) {
+        throw InputError(fmt::format("{}[{}]: {} is not a whole number", name, i, number));
+      }
+    }
+  } else if (kind != 'i' && kind != 'u' && kind != 'b') {
+    PyErr_Clear();
+    throw InputError(fmt::format("{}: needs whole numbers, not {}", name,
+                                 array ? py::str(array.dtype()).cast<std::string>()
+                                       : py::repr(py::type::of(argument)).cast<std::string>()));
+  }
+  return WholeNumbers::ensure(array);
+}
 
 std::span<const std::int64_t> checked_numbers(const WholeNumbers& array, const char* name, py::ssize_t count,
                                               std::int64_t end) {
@@ -211,17 +238,26 @@ std::shared_ptr<StreamSource> make_stream(const EventList& events, int columns, 
   return std::make_shared<RecordedStream>(std::move(streams), rows, acquisitions);
 }
 
-std::shared_ptr<StreamSource> event_list(const WholeNumbers& column, const WholeNumbers& row,
-                                         const WholeNumbers& acquisition, const WholeNumbers& timestamp,
-                                         int columns, int rows, std::uint32_t acquisitions, int np,
-                                         int slots) {
+std::shared_ptr<StreamSource> event_list(const py::object& columns_of_events,
+                                         const py::object& rows_of_events,
+                                         const py::object& acquisitions_of_events,
+                                         const py::object& timestamps, int columns, int rows,
+                                         std::int64_t acquisitions, int np, int slots) {
+  const WholeNumbers column = whole_numbers(columns_of_events, "column");
+  const WholeNumbers row = whole_numbers(rows_of_events, "row");
+  const WholeNumbers acquisition = whole_numbers(acquisitions_of_events, "acquisition");
+  const WholeNumbers timestamp = whole_numbers(timestamps, "timestamp");
   const py::ssize_t count = column.size();
-  for (const auto& [name, value] :
-       {std::pair("columns", columns), std::pair("rows", rows), std::pair("slots", slots)}) {
+  for (const auto& [name, value] : {std::pair("columns", columns), std::pair("rows", rows)}) {
     if (value < 1) {
       throw InputError(fmt::format("{}: {} is not at least 1", name, value));
     }
   }
+  constexpr std::int64_t kMostPixels = std::int64_t{1} << 24U;
+  if (std::int64_t{columns} * rows > kMostPixels) {
+    throw InputError(fmt::format("{} x {} pixels are more than {}", columns, rows, kMostPixels));
+  }
+  check_recorded(acquisitions, slots);
   if (np < 1 || np > 16) {
     throw InputError(fmt::format("np: {} is outside 1 to 16", np));
   }
@@ -231,7 +267,7 @@ std::shared_ptr<StreamSource> event_list(const WholeNumbers& column, const Whole
                          .timestamp = checked_numbers(timestamp, "timestamp", count,
                                                       std::int64_t{1} << static_cast<unsigned>(np))};
   return do_work(py::none(), [&](const Progress::Observer& /*observer*/) {
-    return make_stream(events, columns, rows, acquisitions, slots);
+    return make_stream(events, columns, rows, static_cast<std::uint32_t>(acquisitions), slots);
   });
 }
 
@@ -240,6 +276,7 @@ std::shared_ptr<StreamSource> histogram_photons(const InputArray<double>& counts
                                                 std::uint32_t acquisitions, int slots,
                                                 const std::optional<double>& photons, double background,
                                                 std::uint64_t seed, std::uint32_t frame) {
+  check_recorded(acquisitions, slots);
   NpyArray array{{counts.shape(), counts.shape() + counts.ndim()}, to_vector(counts)};
   Resampling resampling{.np = np,
                         .integration_time = integration_time_s,

@@ -112,6 +112,10 @@ ReadoutParameters make_readout(const std::string& name, const std::optional<Sens
     set_parameter(parameters, letters(word, std::toupper), whole_number(value, word));
   }
   if (code_gate) {
+    if (code_gate->first >= code_gate->second) {
+      throw InputError(
+          fmt::format("code_gate: no code is at least {} and below {}", code_gate->first, code_gate->second));
+    }
     parameters.time_gate = CodeGate{code_gate->first, code_gate->second};
   }
   parameters.validate();
@@ -131,9 +135,14 @@ py::dict parameter_dict(const ReadoutParameters& parameters) {
 }  // namespace
 
 ReadoutParameters to_readout(const py::handle& readout, const SensorModel& sensor) {
-  return py::isinstance<py::str>(readout)
-             ? default_parameters(parse_readout(readout.cast<std::string>()), sensor)
-             : readout.cast<ReadoutParameters>();
+  if (py::isinstance<py::str>(readout)) {
+    return default_parameters(parse_readout(readout.cast<std::string>()), sensor);
+  }
+  if (!py::isinstance<ReadoutParameters>(readout)) {
+    throw py::type_error(fmt::format("{} is neither the name of a read-out nor a dtof.Readout",
+                                     py::repr(readout).cast<std::string>()));
+  }
+  return readout.cast<ReadoutParameters>();
 }
 
 void bind_readouts(py::module_& module) {

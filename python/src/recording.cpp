@@ -17,6 +17,7 @@
 #include "dtof/recording/recorded_array.hpp"
 #include "src/arrays.hpp"
 #include "src/bindings.hpp"
+#include "src/limits.hpp"
 #include "src/work.hpp"
 
 namespace dtof::python {
@@ -39,6 +40,7 @@ HeldRecording read(const std::filesystem::path& file, const std::string& format,
                    const std::optional<int>& rows, int np, int slots, double integration_time_s,
                    double time_shift_s, const std::optional<double>& photons, double background,
                    std::uint64_t seed, std::uint32_t frame) {
+  check_recorded(acquisitions.value_or(1), slots);
   const RecordingOptions options{.file = file.string(),
                                  .format = format,
                                  .bin_width_s = bin_width_s,
@@ -58,6 +60,13 @@ HeldRecording read(const std::filesystem::path& file, const std::string& format,
   return do_work(py::none(), [&](const Progress::Observer& /*observer*/) {
     RecordingFile contents = read_recording(options);
     std::string kind = contents.format;
+    const bool stream = kind == "csv";
+    refuse_without_effect(stream && photons, "photons", "a TDC stream is replayed as it was recorded");
+    refuse_without_effect(stream && bin_width_s, "bin_width_s", "a TDC stream has none");
+    for (const auto& [argument, given] : {std::pair("columns", columns), std::pair("rows", rows)}) {
+      refuse_without_effect(!stream && given, argument,
+                            "only a TDC stream (CSV) lacks the size of its array");
+    }
     Recording recording = open_recording(options, std::move(contents));
     return HeldRecording{std::move(recording.description), std::move(kind), std::move(recording.source),
                          std::move(recording.true_distance)};

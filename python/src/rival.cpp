@@ -26,6 +26,7 @@
 #include "dtof/rival/linear_code.hpp"
 #include "src/arrays.hpp"
 #include "src/bindings.hpp"
+#include "src/limits.hpp"
 #include "src/photons.hpp"
 #include "src/work.hpp"
 
@@ -237,6 +238,8 @@ py::dict read_rival(const NamedRival& named, const py::object& photons, int thre
 
 /// The table that `dtof-study rivals` gives a rival: of the same flat targets and photons as a read-out's.
 RangeConverter rival_table(const NamedRival& named, double klux, std::uint64_t seed, int threads) {
+  check_klux(klux);
+  check_threads(threads);
   return do_work(py::none(), [&](const Progress::Observer& observer) {
     const FlatCalibration calibration(named.sensor);
     const auto count = static_cast<std::size_t>(named.rival->frames());

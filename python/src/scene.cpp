@@ -18,6 +18,7 @@
 #include "dtof/scene/scene.hpp"
 #include "src/arrays.hpp"
 #include "src/bindings.hpp"
+#include "src/limits.hpp"
 
 namespace dtof::python {
 namespace {
@@ -42,14 +43,19 @@ MapSize size_of(const Map& map, const char* name) {
 void set_reflectivities(TargetMap& targets, const Map& map) {
   const MapSize size = size_of(map, "reflectivity");
   set_reflectivity(targets, size.width, size.height, {map.data(), static_cast<std::size_t>(map.size())});
+  check_reflectivities(targets);
 }
 
 using Reflectivity = std::variant<double, Map>;
+
+constexpr const char* kOnlySloped = "only the scenes staircase and plane have a near and a far end";
 
 SceneMap scene_of_depth(const Map& depth, const Reflectivity& reflectivity, const std::optional<int>& columns,
                         const std::optional<int>& rows) {
   const MapSize size = size_of(depth, "depth");
   const auto* share = std::get_if<double>(&reflectivity);
+  check_size(columns.value_or(size.width), rows.value_or(size.height));
+  check_reflectivity(share == nullptr ? 1.0 : *share);
   TargetMap targets = scene_from_depth_image(
       size.width, size.height, {depth.data(), static_cast<std::size_t>(depth.size())},
       columns.value_or(size.width), rows.value_or(size.height), share == nullptr ? 1.0 : *share);
@@ -68,6 +74,8 @@ SceneMap scene_of_cube(const InputArray<double>& events, double bin_width_s, dou
   const SensorModel thesis;
   const SensorModel& whose = sensor ? *sensor : thesis;
   const double* share = reflectivity ? std::get_if<double>(&*reflectivity) : nullptr;
+  check_size(columns.value_or(width), rows.value_or(height));
+  check_reflectivity(share == nullptr ? whose.default_reflectivity : *share);
   TargetMap targets = scene_from_transient_cube(
       shape, {events.data(), static_cast<std::size_t>(events.size())},
       {.bin_width_s = bin_width_s, .start_s = start_s, .events_per_unit = events_per_unit},
@@ -81,20 +89,32 @@ SceneMap scene_of_cube(const InputArray<double>& events, double bin_width_s, dou
 
 SceneMap scene_of_name(const std::string& name, const std::optional<SensorModel>& sensor,
                        const std::optional<int>& columns, const std::optional<int>& rows,
-                       const std::optional<Reflectivity>& reflectivity, double distance_m, double near_m,
-                       double far_m, int steps, std::uint64_t seed) {
+                       const std::optional<Reflectivity>& reflectivity,
+                       const std::optional<double>& distance_m, const std::optional<double>& near_m,
+                       const std::optional<double>& far_m, const std::optional<int>& steps,
+                       std::uint64_t seed) {
   const SensorModel thesis;
   const SensorModel& whose = sensor ? *sensor : thesis;
   const double* share = reflectivity ? std::get_if<double>(&*reflectivity) : nullptr;
-  TargetMap targets =
-      make_scene(parse_scene(name), {.columns = columns.value_or(whose.columns),
-                                     .rows = rows.value_or(whose.rows),
-                                     .distance_m = distance_m,
-                                     .near_m = near_m,
-                                     .far_m = far_m,
-                                     .steps = steps,
-                                     .reflectivity = share == nullptr ? whose.default_reflectivity : *share,
-                                     .seed = seed});
+  const Scene scene = parse_scene(name);
+  const bool sloped = scene == Scene::kStaircase || scene == Scene::kPlane;
+  refuse_without_effect(distance_m.has_value() && scene != Scene::kFlat, "distance_m",
+                        "only the scene flat has one distance");
+  refuse_without_effect(near_m.has_value() && !sloped, "near_m", kOnlySloped);
+  refuse_without_effect(far_m.has_value() && !sloped, "far_m", kOnlySloped);
+  refuse_without_effect(steps.has_value() && scene != Scene::kStaircase, "steps",
+                        "only the scene staircase has steps");
+  SceneParameters parameters{.columns = columns.value_or(whose.columns),
+                             .rows = rows.value_or(whose.rows),
+                             .reflectivity = share == nullptr ? whose.default_reflectivity : *share,
+                             .seed = seed};
+  check_size(parameters.columns, parameters.rows);
+  check_reflectivity(parameters.reflectivity);
+  parameters.distance_m = distance_m.value_or(parameters.distance_m);
+  parameters.near_m = near_m.value_or(parameters.near_m);
+  parameters.far_m = far_m.value_or(parameters.far_m);
+  parameters.steps = steps.value_or(parameters.steps);
+  TargetMap targets = make_scene(scene, parameters);
   if (reflectivity && share == nullptr) {
     set_reflectivities(targets, std::get<Map>(*reflectivity));
   }
@@ -115,10 +135,13 @@ void bind_scenes(py::module_& module) {
   py::class_<SceneMap>(
       module, "Scene",
       "A scene in front of the sensor: a distance and a reflectivity for each pixel. scenes() has the names. "
-      "Size and\nreflectivity are the sensor's by default; reflectivity may be an array (rows, columns).")
+      "Size and\nreflectivity are the sensor's by default; reflectivity may be an array (rows, columns). "
+      "flat: distance_m, by default 1.\nstaircase and plane: near_m, 0.8, and far_m, 5; staircase: "
+      "steps, 8.")
       .def(py::init(&scene_of_name), "name"_a = "room", "sensor"_a = py::none(), py::kw_only(),
            "columns"_a = py::none(), "rows"_a = py::none(), "reflectivity"_a = py::none(),
-           "distance_m"_a = 1.0, "near_m"_a = 0.8, "far_m"_a = 5.0, "steps"_a = 8, "seed"_a = 1)
+           "distance_m"_a = py::none(), "near_m"_a = py::none(), "far_m"_a = py::none(),
+           "steps"_a = py::none(), "seed"_a = 1)
       .def_static(
           "from_depth", &scene_of_depth, "depth_m"_a, "reflectivity"_a = 1.0, py::kw_only(),
           "columns"_a = py::none(), "rows"_a = py::none(),

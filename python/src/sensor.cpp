@@ -15,6 +15,7 @@
 #include "dtof/sensor/preset.hpp"
 #include "dtof/sensor/sensor_file.hpp"
 #include "src/bindings.hpp"
+#include "src/limits.hpp"
 
 namespace dtof::python {
 namespace {
@@ -36,6 +37,10 @@ SensorModel replaced(const SensorModel& sensor, const std::optional<std::uint32_
                      const std::optional<int>& binning, const Nanoseconds& dead_time_ns,
                      const Span& time_gate_ns, const Nanoseconds& coincidence_ns) {
   constexpr double kNanosecondsPerSecond = 1e9;  // divided by, as the program does: the same bits
+  check_sensor_number("acquisitions", acquisitions);
+  check_sensor_number("slots", slots);
+  check_sensor_number("columns", columns);
+  check_sensor_number("rows", rows);
   SensorModel changed = sensor;
   replace(changed.acquisitions, acquisitions);
   replace(changed.np, np);

@@ -146,10 +146,17 @@ class ArrayTest(unittest.TestCase):
             ({"acquisition": [6, 5]}, r"acquisition\[0\]: 6 is outside 0 to 5"),
             ({"timestamp": [10, 1024]}, r"timestamp\[1\]: 1024 is outside 0 to 1023"),
             ({"timestamp": [10]}, "needs one axis of 2 numbers"),
-            ({"rows": 0}, "rows: 0 is not at least 1"), ({"np": 17}, "np: 17 is outside 1 to 16")]
+            ({"rows": 0}, "rows: 0 is not at least 1"), ({"np": 17}, "np: 17 is outside 1 to 16"),
+            ({"column": [0.0, 0.5]}, r"column\[1\]: 0.5 is not a whole number"), ({"row": [float("nan"), 0]}, r"row\[0\]: nan is not a whole number"),
+            ({"acquisition": ["5", "5"]}, "acquisition: needs whole numbers, not <U1"), ({"timestamp": None}, "timestamp: needs whole numbers, not object"),
+            ({"column": [0, 1 << 64]}, "column: needs whole numbers, not object"), ({"row": [0j, 0]}, "row: needs whole numbers, not complex128"),
+            ({"acquisitions": 0}, "acquisitions: 0 is not at least 1"), ({"slots": 17}, "slots: 17 is outside 1 to 16"),
+            ({"columns": 1 << 20, "rows": 1 << 20}, "1048576 x 1048576 pixels are more than 16777216")]
         for change, sentence in cases:
             with self.subTest(sentence), self.assertRaisesRegex(ValueError, sentence):
                 dtof.event_list(**(good | size | change))
+        whole: dict[str, Any] = good | size | {"timestamp": [10.0, 20.0]}
+        dtof.event_list(**whole)
         with self.assertRaisesRegex(ValueError, "acquisition 3 has more than 2 events"):
             dtof.event_list([0] * 3, [0] * 3, [3] * 3, [1, 2, 3], columns=1, rows=1, acquisitions=6)
 

@@ -171,10 +171,63 @@ class ProgramTest(unittest.TestCase):
             (lambda: dtof.frame("rum"), ["--scene", "rum"]),
             (lambda: dtof.frame(readouts=["sfih"]), ["--readout", "sfih"]),
             (lambda: dtof.Readout("sifh", nb=11), ["--readout", "sifh", "--nb", 11])]
+        with self.assertRaisesRegex(ValueError, "code_gate: no code is at least 5 and below 5"):
+            dtof.Readout("sifh", code_gate=(5, 5))
         for call, options in cases:
             with self.assertRaises(ValueError) as raised:
                 call()
             self.assertEqual(str(raised.exception), programs.refusal("dtof", "frame", *options, "--out", self.out / "none"))
+
+    def test_numbers_that_the_program_refuses_are_refused(self) -> None:
+        flat = dtof.Scene("flat", columns=2, rows=2)
+        cases: list[tuple[Callable[[], object], list[object]]] = [
+            (lambda: dtof.photons(flat, dtof.Sensor(), 201.0), ["--klux", 201]),
+            (lambda: dtof.frame(flat, klux=201.0, readouts=["sifh"]), ["--klux", 201]),
+            (lambda: dtof.LookupTable.flat("sifh", dtof.Sensor(), 201.0), ["--klux", 201]),
+            (lambda: dtof.Rival("hedh4", dtof.Sensor()).flat_table(201.0), ["--klux", 201]),
+            (lambda: dtof.Scene("flat", columns=2, rows=2, reflectivity=5.0), ["--reflectivity", 5])]
+        for call, options in cases:
+            with self.subTest(options), self.assertRaises(ValueError) as raised:
+                call()
+            self.assertEqual("frame: --" + str(raised.exception), programs.refusal("dtof", "frame", *options, "--out", self.out / "none"))
+
+    def test_numbers_of_a_sensor_have_the_limits_of_its_file(self) -> None:
+        sensor = dtof.Sensor()
+        cases: list[tuple[Callable[[], object], str]] = [
+            (lambda: sensor.replace(acquisitions=0), "acquisitions = 0"), (lambda: sensor.replace(acquisitions=1048576), "acquisitions = 1048576"),
+            (lambda: sensor.replace(slots=17), "slots = 17"), (lambda: sensor.replace(columns=4097), "columns = 4097"),
+            (lambda: sensor.replace(rows=4097), "rows = 4097"), (lambda: dtof.Scene("flat", columns=4097, rows=1), "columns = 4097"),
+            (lambda: dtof.Scene.from_depth(np.ones((1, 1)), rows=4097), "rows = 4097")]
+        for call, line in cases:
+            key = line.split()[0]
+            text = "\n".join(line if old.startswith(f"{key} =") else old for old in dtof.preset_text("thesis").splitlines())
+            with self.subTest(line), self.assertRaises(ValueError) as raised:
+                call()
+            with self.assertRaises(ValueError) as of_file:
+                dtof.Sensor.parse(text, "a.toml")
+            self.assertEqual(str(raised.exception), str(of_file.exception).split(": ", 1)[1])
+
+    def test_arguments_without_effect_are_refused(self) -> None:
+        cases: list[tuple[Callable[[], object], str]] = [
+            (lambda: dtof.Scene("room", near_m=1.0), "near_m has no effect: only the scenes staircase and plane have a near and a far end"),
+            (lambda: dtof.Scene("flat", far_m=1.0), "far_m has no effect"), (lambda: dtof.Scene("room", distance_m=1.0), "distance_m has no effect"),
+            (lambda: dtof.Scene("plane", steps=4), "steps has no effect")]
+        for call, sentence in cases:
+            with self.subTest(sentence), self.assertRaisesRegex(ValueError, sentence):
+                call()
+
+    def test_frames_that_are_none(self) -> None:
+        scene = dtof.Scene("flat", columns=2, rows=2)
+        cases: list[tuple[dict[str, Any], type[Exception], str]] = [
+            ({"precision_percent": 0.0}, ValueError, "precision_percent: 0 is not above 0"),
+            ({"precision_percent": 5.0, "max_frames": 0}, ValueError, "max_frames: 0 is outside 4 to 1000000"),
+            ({"threads": -1}, ValueError, "threads: -1 is outside 0 to 1024"),
+            ({"fidelity": "analytic", "precision_percent": 5.0}, ValueError, "precision_percent has no effect: the analytic photon model"),
+            ({"readouts": [3]}, TypeError, "3 is neither the name of a read-out nor a dtof.Readout")]
+        for options, error, sentence in cases:
+            own: dict[str, Any] = {"readouts": ["sifh"], "table": "none", **options}
+            with self.subTest(sentence), self.assertRaisesRegex(error, sentence):
+                dtof.frame(scene, **own)
 
 
 if __name__ == "__main__":

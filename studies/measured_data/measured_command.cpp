@@ -16,6 +16,7 @@
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/recording_options.hpp"
+#include "command_line/shell_words.hpp"
 #include "command_line/truth_map.hpp"
 #include "common/commands.hpp"
 #include "common/readout_variant.hpp"
@@ -289,13 +290,13 @@ void write_pictures(const std::filesystem::path& folder, const MeasuredScene& sc
   const double margin = 0.1 * (farthest > nearest ? farthest - nearest : farthest);
   write_map_picture(folder / "depth.png", depths,
                     {.title = fmt::format("Distance in m: {}, {}", scene.title, result.light.name()),
-                     .caption = options.command_line,
+                     .caption = without_threads(options.command_line),
                      .panels_per_row = 4,
                      .pixel_size = pixel_size,
                      .depth_range = ColourRange{std::max(0.0, nearest - margin), farthest + margin}});
   write_map_picture(folder / "error.png", errors,
                     {.title = fmt::format("Error in m: {}, {}", scene.title, result.light.name()),
-                     .caption = options.command_line,
+                     .caption = without_threads(options.command_line),
                      .panels_per_row = 4,
                      .pixel_size = pixel_size,
                      .largest_error = 0.25});

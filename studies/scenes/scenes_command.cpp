@@ -14,6 +14,7 @@
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/own_map.hpp"
+#include "command_line/shell_words.hpp"
 #include "common/commands.hpp"
 #include "common/readout_variant.hpp"
 #include "common/scene_list.hpp"
@@ -201,7 +202,7 @@ std::vector<SceneResult> measure_scenes(ScenesRun& run, const SceneStudy& study,
       write_error_maps(
           run.folder / fmt::format("{}_{:g}klux_{}.png", file_name(scene.name), klux, sensor.name),
           fmt::format("Error in m: {}, {:g} klux, sensor {}", scene.name, klux, sensor.name), truth,
-          estimators, measurements, run.options.command_line);
+          estimators, measurements, without_threads(run.options.command_line));
     }
     results.push_back(std::move(result));
     progress.advance();

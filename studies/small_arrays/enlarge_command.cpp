@@ -16,6 +16,7 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/own_map.hpp"
+#include "command_line/shell_words.hpp"
 #include "common/commands.hpp"
 #include "common/scene_list.hpp"
 #include "dtof/core/error.hpp"
@@ -167,7 +168,8 @@ void run_enlarge_command(EnlargeOptions options) {
   const std::string title =
       fmt::format("{}, {:g} klux, sensor {}, poolPointer: large array, and a small one enlarged",
                   settings.pictured_scene, lights.back().klux, options.sensor);
-  write_picture(folder / picture, lights.back().study.maps, sensor, title, options.command_line);
+  write_picture(folder / picture, lights.back().study.maps, sensor, title,
+                without_threads(options.command_line));
   write_file(folder / "enlarge.csv", enlarge_csv(lights));
   write_page(folder, "enlarge", "enlarge", enlarge_page(options, sensor, scenes, lights, title, picture));
   fmt::print("The report is {}\n", (folder / "enlarge.md").string());

@@ -18,6 +18,7 @@
 #include "dtof/core/error.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/io/atomic_file.hpp"
+#include "dtof/io/output_error.hpp"
 #include "on_demand/sha256.hpp"
 
 namespace dtof {
@@ -54,7 +55,7 @@ class Lock {
   Lock(const std::filesystem::path& file, const ArrayCache::Say& say)
       : descriptor_(open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
     if (descriptor_ < 0) {
-      throw InputError(fmt::format("{}: cannot write: {}", file.string(), std::strerror(errno)));
+      throw OutputError(fmt::format("{}: cannot write: {}", file.string(), std::strerror(errno)));
     }
     constexpr auto kPause = std::chrono::milliseconds(100);
     for (bool said = false; flock(descriptor_, LOCK_EX | LOCK_NB) != 0; said = true) {
@@ -170,7 +171,7 @@ std::filesystem::path ArrayCache::get(const std::string& key, const Make& make, 
   std::filesystem::remove_all(place, error);
   std::filesystem::rename(work.path(), place, error);
   if (error) {
-    throw InputError(fmt::format("{}: cannot write: {}", place.string(), error.message()));
+    throw OutputError(fmt::format("{}: cannot write: {}", place.string(), error.message()));
   }
   return place / kFile;
 }

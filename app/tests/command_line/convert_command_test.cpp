@@ -77,5 +77,42 @@ TEST_F(ConvertCommand, BadInputIsOneLine) {
   expect_refused("map.npy a.npz --format hdf5", "map.npy: not an HDF5 file, or a pipe");
 }
 
+TEST_F(ConvertCommand, TimesBeyondASecondAreRefusedAndLostPhotonsAreCounted) {
+  std::vector<double> counts(80, 0.0);
+  counts[10] = 10.0;
+  counts[60] = 5.0;
+  write_npy(path("a.npy"), std::vector<std::size_t>{1, 1, 80}, counts);
+  expect_refused("a.npy a.csv --bin-width 1e300", "--bin-width: 1e300 is above 1000000000000 ps, a second");
+  expect_refused("a.npy a.npz --bin-width 1e300", "--bin-width: 1e300 is above 1000000000000 ps, a second");
+  expect_refused("a.npy a.csv --bin-width 1000 --shift 1e300",
+                 "--shift: 1e300 is not within -1000000000 to 1000000000 ns, a second");
+  expect_refused("a.npy a.csv --bin-width 1000 --t-int 1e300",
+                 "--t-int: 1e300 is above 1000000000 ns, a second");
+  expect_refused(
+      "a.npy a.csv --bin-width 1000 --shift 900",
+      "a.npy: all 15 photons of the pixels read are outside the range, 0 to 45 ns: --t-int and --shift "
+      "move it");
+  const Outcome outcome = dtof("convert a.npy a.csv --bin-width 1000");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output,
+              EndsWith("acquisitions; 5 of 15 photons are outside the range, 0 to 45 ns, and lost\n"));
+}
+
+TEST_F(ConvertCommand, DistancesBelowHalfAMillimetreAreNotLostInSilence) {
+  const std::vector<std::size_t> shape = {2, 2};
+  write_npy(path("a.npy"), shape, std::vector<double>{4e-4, 1e-4, 0.0, 4.9e-4});
+  expect_refused(
+      "a.npy a.png",
+      "a.png: each of the 3 distances is below 0.5 mm, and a PNG has whole mm: choose .pfm or .npy, or "
+      "another --depth-scale");
+  EXPECT_EQ(dtof("convert a.npy a.pfm").exit_code, 0);
+  write_npy(path("b.npy"), shape, std::vector<double>{4e-4, 1.0, 0.0, 4.9e-4});
+  const Outcome some = dtof("convert b.npy b.png");
+  EXPECT_EQ(some.exit_code, 0);
+  EXPECT_THAT(some.output, EndsWith("; 2 are below 0.5 mm and lost, because a PNG has whole mm\n"));
+  write_npy(path("c.npy"), shape, std::vector<double>{0.0, 0.0, 0.0, 0.0});
+  EXPECT_EQ(dtof("convert c.npy c.png").exit_code, 0);  // no distance is known
+}
+
 }  // namespace
 }  // namespace dtof

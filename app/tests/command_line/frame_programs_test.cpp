@@ -85,6 +85,12 @@ TEST_F(Programs, ThreadsAndChosenColumnsDoNotChangeAResult) {
   ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --columns 4 --out four", kSmallScene)).exit_code, 0);
   const std::string whole = read_file(path("one/fifh.csv"));
   EXPECT_EQ(whole, read_file(path("two/fifh.csv")));
+  ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --threads 1 --out two", kSmallScene)).exit_code, 0);
+  const std::string overview = read_file(path("two/overview.png"));
+  const std::string errors = read_file(path("two/errors.png"));
+  ASSERT_EQ(dtof(fmt::format("frame -r fifh {} -j 2 --out two", kSmallScene)).exit_code, 0);
+  EXPECT_EQ(overview, read_file(path("two/overview.png")));
+  EXPECT_EQ(errors, read_file(path("two/errors.png")));
   std::ifstream part(path("four/fifh.csv"));
   std::string line;
   int lines = 0;

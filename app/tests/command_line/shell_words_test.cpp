@@ -28,6 +28,15 @@ TEST(ShellWord, OthersAreQuoted) {
   EXPECT_EQ(shell_word("two\nlines\\'"), R"($'two\012lines\\\'')");
 }
 
+TEST(ShellCommand, TheNumberOfThreadsCanBeLeftOut) {
+  const auto left = [](const auto& words) { return without_threads(shell_command("dtof", words)); };
+  EXPECT_EQ(left(std::array{"frame", "--threads", "2", "--seed", "3"}), "dtof frame --seed 3");
+  EXPECT_EQ(left(std::array{"frame", "-j", "2"}), "dtof frame");
+  EXPECT_EQ(left(std::array{"frame", "-j2", "--threads=4", "--out", "a"}), "dtof frame --out a");
+  const std::array quoted = {"frame", "a -j 3", "it's -j 3 \xfc", "it's -j 4"};
+  EXPECT_EQ(left(quoted), shell_command("dtof", quoted));
+}
+
 TEST(ShellCommand, AShellTakesTheWordsBack) {
   const std::array<const char*, 7> words = {"plain", "a b", "it's", "$HOME", "`x`", "a\\b\xfc\n'!", "*"};
   const std::filesystem::path script = std::filesystem::path(::testing::TempDir()) / "dtof_shell_words.sh";

@@ -227,8 +227,9 @@ TEST_F(Product, WritesNothingIfAnythingIsWrong) {
   // A disk that is full.
   const Outcome full = shell(fmt::format(
       "trap '' XFSZ; ulimit -f 20; {} product --sensor small.toml --readout sifh --out chip", DTOF_PROGRAM));
-  EXPECT_NE(full.exit_code, 0);
+  EXPECT_EQ(full.exit_code, 4);
   EXPECT_THAT(full.output, HasSubstr("cannot write: File too large"));
+  EXPECT_THAT(full.output, HasSubstr("/chip/"));
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
     EXPECT_THAT(entry.path().filename().string(), AnyOf("small.toml", "full"));
   }

@@ -13,9 +13,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dtof/core/error.hpp"
 #include "dtof/io/input_file.hpp"
 #include "dtof/io/npy_reader.hpp"
+#include "dtof/io/output_error.hpp"
 
 namespace dtof {
 namespace {
@@ -180,7 +180,7 @@ void NpzWriter::check(long long code) {
   }
   if (code < ARCHIVE_OK) {
     const char* const reason = archive_error_string(archive_.get());
-    throw InputError(fmt::format("{}: cannot write: {}", path_.string(), reason == nullptr ? "" : reason));
+    throw OutputError(fmt::format("{}: cannot write: {}", path_.string(), reason == nullptr ? "" : reason));
   }
 }
 

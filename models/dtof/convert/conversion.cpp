@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -29,6 +30,7 @@
 #include "dtof/recording/photon_hdf5_cube.hpp"
 #include "dtof/recording/picoquant.hpp"
 #include "dtof/recording/recorded_array.hpp"
+#include "dtof/recording/resampling.hpp"
 #include "dtof/recording/stream_csv.hpp"
 
 namespace dtof {
@@ -99,9 +101,10 @@ std::string convert_map(const ConversionOptions& options, const ConversionInput&
                                          static_cast<std::size_t>(map.depth.width)},
                 std::vector<double>(map.depth.metres.begin(), map.depth.metres.end()));
       return map_sentence(map);
-    default:
-      write_converted_map(options.out, map.depth);
-      return map_sentence(map);
+    default: {
+      const std::string lost = write_converted_map(options.out, map.depth);
+      return map_sentence(map) + (lost.empty() ? "" : "; " + lost);
+    }
   }
 }
 
@@ -223,9 +226,17 @@ std::string convert_to_events(const ConversionOptions& options, const Conversion
 
 std::string convert_to_stream(const ConversionOptions& options, ConversionInput input) {
   const Recording recording = open_recording(options.recording, std::move(input.file));
-  write_stream_csv(options.out, *recording.source);
-  return fmt::format("{}: a TDC stream of {} columns, {} rows and {} acquisitions", recording.description,
-                     recording.source->columns(), recording.source->rows(), recording.source->acquisitions());
+  const StreamSource& source = *recording.source;
+  std::string lost;
+  if (const auto* const measured = dynamic_cast<const ResampledStream*>(&source)) {
+    std::vector<int> columns(static_cast<std::size_t>(source.columns()));
+    std::iota(columns.begin(), columns.end(), 0);
+    lost = lost_photons_sentence(options.recording.file, measured->count_photons(columns, {0, source.rows()}),
+                                 options.recording.resampling.integration_time);
+  }
+  write_stream_csv(options.out, source);
+  return fmt::format("{}: a TDC stream of {} columns, {} rows and {} acquisitions{}{}", recording.description,
+                     source.columns(), source.rows(), source.acquisitions(), lost.empty() ? "" : "; ", lost);
 }
 
 }  // namespace

@@ -125,15 +125,25 @@ ConvertedMap read_converted_map(const ConversionOptions& options, const Conversi
   return map;
 }
 
-void write_converted_map(const std::string& out, const DepthImage& depth) {
+std::string write_converted_map(const std::string& out, const DepthImage& depth) {
   if (out.ends_with(".pfm")) {
     write_pfm(out, depth);
-    return;
+    return "";
   }
   if (const std::string obstacle = depth_png_obstacle(depth); !obstacle.empty()) {
     fail_in_file(out, obstacle);
   }
+  constexpr double kLeast = 0.5e-3;  // rounds to 1 mm
+  const auto known = std::ranges::count_if(depth.metres, is_known_distance);
+  const auto lost = std::ranges::count_if(
+      depth.metres, [](float metres) { return is_known_distance(metres) && double{metres} < kLeast; });
+  if (lost == known && known > 0) {
+    fail_in_file(out, fmt::format("each of the {} distances is below 0.5 mm, and a PNG has whole mm: choose "
+                                  ".pfm or .npy, or another --depth-scale",
+                                  known));
+  }
   write_depth_png(out, depth);
+  return lost == 0 ? "" : fmt::format("{} are below 0.5 mm and lost, because a PNG has whole mm", lost);
 }
 
 }  // namespace dtof

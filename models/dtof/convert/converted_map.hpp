@@ -25,7 +25,8 @@ bool starts_as_image(std::string_view start);
 /// map differ in size.
 ConvertedMap read_converted_map(const ConversionOptions& options, const ConversionInput& input);
 
-/// Writes the distances as PNG or PFM, by the ending of `out`.
-void write_converted_map(const std::string& out, const DepthImage& depth);
+/// Writes the distances as PNG or PFM, by the ending of `out`. Returns what is lost; empty if nothing is.
+/// Throws InputError if everything is.
+std::string write_converted_map(const std::string& out, const DepthImage& depth);
 
 }  // namespace dtof

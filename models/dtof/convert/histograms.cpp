@@ -70,6 +70,8 @@ CountedHistograms of_times(const PhotonTimes& photons, const RecordingOptions& o
       }
     }
   }
+  (void)lost_photons_sentence(options.file, {.all = photons.ticks.size(), .outside = counted.outside},
+                              range.integration_time);  // if all are lost
   return counted;
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "dtof/core/progress.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/input_file.hpp"
 
@@ -43,6 +44,7 @@ void for_each_piece(ArrayReader& array, const std::function<void(std::span<const
   constexpr std::size_t kPiece = std::size_t{1} << 16U;
   std::vector<double> values;
   for (std::size_t left = array.count(); left > 0; left -= values.size()) {
+    check_interruption();
     values.resize(std::min(kPiece, left));
     array.next(values);
     take(values);

@@ -7,12 +7,17 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstddef>
+#include <new>
 #include <system_error>
 #include <utility>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/progress.hpp"
+#include "dtof/io/output_error.hpp"
 
 namespace dtof {
 namespace {
@@ -28,11 +33,45 @@ mode_t default_mode() {
   return static_cast<mode_t>(S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH) & ~mask;
 }
 
+/// Where links lead whose last one names no file yet.
+std::filesystem::path end_of_links(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;  // as Linux has it
+  std::error_code error;
+  for (int links = 0; links < kMostLinks && std::filesystem::is_symlink(path, error); ++links) {
+    const std::filesystem::path next = std::filesystem::read_symlink(path, error);
+    path = path.parent_path() / next;  // which is `next` if that is absolute
+  }
+  return path;
+}
+
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)), final_(target_) {
+struct AtomicFile::Packer {
+  Packer() {
+    constexpr int kGzip = 15 + 16;  // the largest window, and zlib's flag for gzip's header
+    constexpr int kMemory = 8;      // zlib's default
+    if (deflateInit2(&state, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) {
+      throw std::bad_alloc();
+    }
+  }
+  Packer(const Packer&) = delete;
+  Packer& operator=(const Packer&) = delete;
+  Packer(Packer&&) = delete;
+  Packer& operator=(Packer&&) = delete;
+  ~Packer() { deflateEnd(&state); }
+
+  z_stream state{};
+};
+
+AtomicFile::AtomicFile(std::filesystem::path target, Packing packing)
+    : target_(std::move(target)),
+      final_(target_),
+      packer_(packing == Packing::kGzip ? std::make_unique<Packer>() : nullptr) {
   std::error_code error;
   const auto status = std::filesystem::status(target_, error);
+  if (error == std::errc::too_many_symbolic_link_levels) {
+    fail(error.message());
+  }
   if (std::filesystem::is_directory(status)) {
     fail("it is a directory");
   }
@@ -48,6 +87,8 @@ AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)
       fail(errno_text());
     }
     final_ = std::filesystem::canonical(target_);
+  } else {
+    final_ = end_of_links(target_);
   }
   std::string name = (final_.parent_path() / fmt::format(".{}.XXXXXX", final_.filename().string())).string();
   descriptor_ = ::mkstemp(name.data());
@@ -60,13 +101,40 @@ AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)
 AtomicFile::~AtomicFile() { close_and_remove(); }
 
 void AtomicFile::append(std::string_view bytes) {
-  buffer_.append(bytes);
+  if (packer_) {
+    pack(bytes, false);
+  } else {
+    buffer_.append(bytes);
+  }
   if (buffer_.size() >= kBufferSize) {
     flush();
   }
 }
 
+void AtomicFile::pack(std::string_view bytes, bool last) {
+  z_stream& stream = packer_->state;
+  std::array<Bytef, std::size_t{1} << 14U> packed{};
+  do {
+    const std::size_t given = std::min(bytes.size(), kBufferSize);  // zlib counts in 32 bits
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast,cppcoreguidelines-pro-type-reinterpret-cast):
+    // zlib's
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(given);
+    do {
+      stream.next_out = packed.data();
+      stream.avail_out = static_cast<uInt>(packed.size());
+      deflate(&stream, last ? Z_FINISH : Z_NO_FLUSH);
+      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): zlib's type
+      buffer_.append(reinterpret_cast<const char*>(packed.data()), packed.size() - stream.avail_out);
+    } while (stream.avail_out == 0);
+    bytes.remove_prefix(given);
+  } while (!bytes.empty());
+}
+
 void AtomicFile::commit() {
+  if (packer_) {
+    pack("", true);
+  }
   flush();
   if (!temporary_.empty() && ::fchmod(descriptor_, default_mode()) != 0) {
     fail(errno_text());
@@ -83,12 +151,13 @@ void AtomicFile::commit() {
 }
 
 void AtomicFile::fail(const std::string& reason) const {
-  throw InputError(fmt::format("{}: cannot write: {}", target_.string(), reason));
+  throw OutputError(fmt::format("{}: cannot write: {}", target_.string(), reason));
 }
 
 void AtomicFile::flush() {
   std::string_view rest = buffer_;
   while (!rest.empty()) {
+    check_interruption();
     const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
     if (written < 0) {
       if (errno == EINTR) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -10,10 +11,13 @@ namespace dtof {
 /// Output file that appears whole or not at all. Data goes to a temporary file beside the target, which
 /// `commit` renames. Without `commit` (e.g. after an exception) the temporary file is deleted and an older
 /// target stays unchanged. A target that is not a regular file (/dev/stdout, a pipe) is written directly.
-/// Every failure throws InputError "<path>: cannot write: <reason>".
+/// What is appended may be packed with gzip on its way. Every failure throws OutputError "<path>: cannot
+/// write: <reason>".
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path target);
+  enum class Packing { kPlain, kGzip };
+
+  explicit AtomicFile(std::filesystem::path target, Packing packing = Packing::kPlain);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
   AtomicFile(AtomicFile&&) = delete;
@@ -24,7 +28,10 @@ class AtomicFile {
   void commit();
 
  private:
+  struct Packer;
+
   [[noreturn]] void fail(const std::string& reason) const;
+  void pack(std::string_view bytes, bool last);
   void flush();
   void close_and_remove() noexcept;
 
@@ -33,6 +40,7 @@ class AtomicFile {
   std::filesystem::path temporary_;  ///< empty if the target is written directly
   int descriptor_ = -1;
   std::string buffer_;
+  std::unique_ptr<Packer> packer_;  ///< none: plain
 };
 
 /// Writes `contents` as an AtomicFile.

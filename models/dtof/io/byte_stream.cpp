@@ -2,50 +2,31 @@
 #include "dtof/io/byte_stream.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <system_error>
 #include <utility>
 
 #include "dtof/core/error.hpp"
 #include "dtof/io/input_file.hpp"
+#include "dtof/io/unpacked_file.hpp"
 
 namespace dtof {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 18U;
 
-gzFile open_stream(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    fail_in_file(path, "cannot read: it is a directory");
-  }
-  if (std::filesystem::is_character_file(path, error)) {
-    fail_in_file(path, "cannot read: it is a device");
-  }
-  gzFile file = gzopen(path.c_str(), "rbe");
-  if (file == nullptr) {
-    fail_in_file(path, fmt::format("cannot read: {}", std::generic_category().message(errno)));
-  }
-  gzbuffer(file, kPiece);
-  return file;
-}
-
-int close_nothing(gzFile_s* /*file*/) { return 0; }
-
 }  // namespace
 
 ByteStream::ByteStream(std::filesystem::path path)
-    : path_(std::move(path)), file_(open_stream(path_), gzclose_r) {
+    : path_(std::move(path)), file_(std::make_unique<UnpackedFile>(path_)) {
   if (!refill()) {
     fail_in_file(path_, "the file is empty");
   }
 }
 
 ByteStream::ByteStream(std::filesystem::path path, std::string_view bytes)
-    : path_(std::move(path)), file_(nullptr, close_nothing), rest_(bytes) {
+    : path_(std::move(path)), rest_(bytes) {
   if (!refill()) {
     fail_in_file(path_, "the file is empty");
   }
@@ -88,17 +69,8 @@ bool ByteStream::refill() {
   }
   buffer_.resize(kPiece);
   next_ = 0;
-  const int count = gzread(file_.get(), buffer_.data(), static_cast<unsigned>(buffer_.size()));
-  int code = Z_OK;
-  const char* const reason = gzerror(file_.get(), &code);
-  if (count < 0 || (code != Z_OK && code != Z_STREAM_END)) {
-    fail_in_file(path_, code == Z_ERRNO
-                            ? fmt::format("cannot read: {}", std::generic_category().message(errno))
-                        : code == Z_BUF_ERROR ? "damaged gzip data: the file ends early"
-                                              : fmt::format("damaged gzip data: {}", reason));
-  }
-  buffer_.resize(static_cast<std::size_t>(count));
-  return count > 0;
+  buffer_.resize(file_->read(buffer_));
+  return !buffer_.empty();
 }
 
 std::string file_start(const std::filesystem::path& path, std::size_t size) {
@@ -106,11 +78,14 @@ std::string file_start(const std::filesystem::path& path, std::size_t size) {
   if (!std::filesystem::is_regular_file(path, error)) {
     return "";
   }
-  const std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file(gzopen(path.c_str(), "rbe"), gzclose_r);
-  std::string start(size, '\0');
-  const int count = file ? gzread(file.get(), start.data(), static_cast<unsigned>(size)) : 0;
-  start.resize(static_cast<std::size_t>(std::max(count, 0)));
-  return start;
+  try {
+    UnpackedFile file(path);
+    std::string start(size, '\0');
+    start.resize(file.read(start));
+    return start;
+  } catch (const InputError&) {  // whoever reads the file says why
+    return "";
+  }
 }
 
 }  // namespace dtof

@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 
-struct gzFile_s;
-
 namespace dtof {
+
+class UnpackedFile;
 
 /// Little-endian number at `offset`. `bytes` must hold the whole number.
 template <typename T>
@@ -47,7 +47,7 @@ class ByteStream {
   bool refill();
 
   std::filesystem::path path_;
-  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  std::unique_ptr<UnpackedFile> file_;  ///< none: bytes in memory
   std::string buffer_;
   std::string_view rest_;  ///< bytes in memory that are not in `buffer_` yet
   std::size_t next_ = 0;   ///< next byte in `buffer_`

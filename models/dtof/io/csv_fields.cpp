@@ -75,7 +75,7 @@ bool read_plain(std::string_view line, char separator, std::span<std::uint64_t> 
 std::vector<std::string_view> split_at_commas(std::string_view text) { return split(text, ','); }
 
 void fail_at_line(std::string_view file_name, std::size_t line, std::string_view reason) {
-  throw InputError(fmt::format("{}:{}: {}", file_name, line, reason));
+  throw InputError(fmt::format("{}:{}: {}", file_name, line, with_visible_nul(reason)));
 }
 
 IntegerCsv::IntegerCsv(std::string file_name, std::string_view header, CsvLineHandler handler,

@@ -5,7 +5,7 @@
 
 #include <system_error>
 
-#include "dtof/core/error.hpp"
+#include "dtof/io/output_error.hpp"
 
 namespace dtof {
 
@@ -13,7 +13,7 @@ void create_output_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
-    throw InputError(
+    throw OutputError(
         fmt::format("{}: cannot create the output folder: {}", folder.string(), error.message()));
   }
 }

@@ -5,7 +5,7 @@
 
 namespace dtof {
 
-/// Creates `folder` and its missing parents. Throws InputError "<path>: cannot create the output folder:
+/// Creates `folder` and its missing parents. Throws OutputError "<path>: cannot create the output folder:
 /// <reason>".
 void create_output_folder(const std::filesystem::path& folder);
 

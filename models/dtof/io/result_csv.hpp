@@ -22,7 +22,7 @@ struct ResultRecord {
   bool operator==(const ResultRecord&) const = default;
 };
 
-/// Writes the records in the given order, one line each. Throws InputError "<path>: cannot write: <reason>".
+/// Writes the records in the given order, one line each. Throws OutputError "<path>: cannot write: <reason>".
 void write_result_csv(const std::filesystem::path& path, std::span<const ResultRecord> records);
 
 /// Reads a result file. Throws InputError "<file>:<line>: <reason>" at the first malformed line.

@@ -17,12 +17,10 @@
 #include "dtof/host/range_converter.hpp"
 #include "dtof/photon/photon_source.hpp"
 #include "dtof/pipeline/frame_engine.hpp"
+#include "dtof/pipeline/frame_limits.hpp"
 #include "dtof/pipeline/region.hpp"
 
 namespace dtof {
-
-/// Largest number of laser pulses in a frame, because a column's detections are held in memory.
-inline constexpr double kMostAcquisitions = 1048575;
 
 /// Throws InputError if the detections of a column of `rows` rows might exceed the memory limit, which is 2.7
 /// GB (160 rows, two slots and kMostAcquisitions).

@@ -2,42 +2,23 @@
 #include "dtof/recording/line_reader.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
-#include <cerrno>
-#include <system_error>
+#include <span>
 #include <utility>
 
 #include "dtof/io/csv_fields.hpp"
 #include "dtof/io/input_file.hpp"
+#include "dtof/io/unpacked_file.hpp"
 
 namespace dtof {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 18U;
 
-gzFile open_text(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    fail_in_file(path, "cannot read: it is a directory");
-  }
-  if (std::filesystem::is_character_file(path, error)) {
-    fail_in_file(path, "cannot read: it is a device");
-  }
-  gzFile file = gzopen(path.c_str(), "rbe");
-  if (file == nullptr) {
-    fail_in_file(path, fmt::format("cannot read: {}", std::generic_category().message(errno)));
-  }
-  gzbuffer(file, kPiece);
-  return file;
-}
-
-int close_nothing(gzFile_s* /*file*/) { return 0; }
-
 }  // namespace
 
 LineReader::LineReader(std::filesystem::path path)
-    : path_(std::move(path)), file_(open_text(path_), gzclose_r) {
+    : path_(std::move(path)), file_(std::make_unique<UnpackedFile>(path_)) {
   if (!refill()) {
     fail_in_file(path_, "the file is empty");
   }
@@ -45,7 +26,7 @@ LineReader::LineReader(std::filesystem::path path)
 }
 
 LineReader::LineReader(std::filesystem::path path, std::string_view text)
-    : path_(std::move(path)), file_(nullptr, close_nothing), rest_(without_byte_order_mark(text)) {}
+    : path_(std::move(path)), rest_(without_byte_order_mark(text)) {}
 
 LineReader::~LineReader() = default;
 
@@ -77,16 +58,8 @@ bool LineReader::refill() {
   std::string next(rest_);
   const std::size_t kept = next.size();
   next.resize(kept + kPiece);
-  const int count = gzread(file_.get(), &next[kept], static_cast<unsigned>(kPiece));
-  int code = Z_OK;
-  const char* const reason = gzerror(file_.get(), &code);
-  if (count < 0 || (code != Z_OK && code != Z_STREAM_END)) {
-    fail_in_file(path_, code == Z_ERRNO
-                            ? fmt::format("cannot read: {}", std::generic_category().message(errno))
-                        : code == Z_BUF_ERROR ? "damaged gzip data: the file ends early"
-                                              : fmt::format("damaged gzip data: {}", reason));
-  }
-  next.resize(kept + static_cast<std::size_t>(count));
+  const std::size_t count = file_->read(std::span(next).subspan(kept));
+  next.resize(kept + count);
   buffer_ = std::move(next);
   rest_ = buffer_;
   return count > 0;

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-struct gzFile_s;
-
 namespace dtof {
+
+class UnpackedFile;
 
 /// Longest line that is read, in bytes.
 inline constexpr std::size_t kLongestLine = std::size_t{1} << 20U;
@@ -42,7 +42,7 @@ class LineReader {
   bool refill();
 
   std::filesystem::path path_;
-  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  std::unique_ptr<UnpackedFile> file_;  ///< none: text in memory
   std::string buffer_;
   std::string_view rest_;  ///< unread part of `buffer_`, or of the text in memory
   std::size_t number_ = 0;

@@ -52,6 +52,19 @@ void Resampling::validate() const {
         "0 or more events per acquisition, at most 1e7 per frame");
 }
 
+std::string lost_photons_sentence(const std::string& file, const PhotonCount& photons,
+                                  double integration_time) {
+  const std::string range = fmt::format("0 to {:g} ns", integration_time * 1e9);
+  if (photons.all > 0 && photons.outside == photons.all) {
+    throw InputError(fmt::format(
+        "{}: all {} photons of the pixels read are outside the range, {}: --t-int and --shift move it", file,
+        photons.all, range));
+  }
+  return photons.outside == 0 ? ""
+                              : fmt::format("{} of {} photons are outside the range, {}, and lost",
+                                            photons.outside, photons.all, range);
+}
+
 ResampledStream::ResampledStream(int columns, int rows, const Resampling& resampling)
     : columns_(columns), rows_(rows), resampling_(resampling) {
   resampling_.validate();

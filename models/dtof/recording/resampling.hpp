@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "dtof/core/detection.hpp"
@@ -44,6 +45,11 @@ struct PhotonCount {
   std::uint64_t all = 0;
   std::uint64_t outside = 0;  ///< photons outside [0, T_int), which are lost
 };
+
+/// What is lost of `file`'s photons because they lie outside of `integration_time`, s; empty if nothing is.
+/// Throws InputError if everything is.
+std::string lost_photons_sentence(const std::string& file, const PhotonCount& photons,
+                                  double integration_time);
 
 /// A measurement replayed as a TDC stream. Every photon goes to a uniformly random acquisition, and each
 /// acquisition keeps its first `slots` events in time (pile-up, thesis 2.2.2). A pixel's random numbers

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <iterator>
 #include <limits>
@@ -70,7 +71,7 @@ std::size_t sort_pixel(std::span<Line> lines, int slots) {
   return first;
 }
 
-/// Sizes that a file's lines ask for, those without an event among them.
+/// Sizes that a file's lines ask for, those without a detection among them.
 struct Extent {
   std::uint64_t acquisitions = 0;
   std::uint64_t columns = 0;
@@ -111,7 +112,7 @@ class StreamBuilder {
     check_index(name_, number, "column", fields[1], columns_limit_);
     check_index(name_, number, "row", fields[2], rows_limit_);
     found_.include(fields);
-    if (fields[3] == kNoCsvValue) {
+    if (fields[3] == kNoCsvValue || fields[3] == codes_ - 1) {  // all ones: no detection
       return;
     }
     if (fields[3] >= codes_) {
@@ -287,7 +288,10 @@ RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCs
 }
 
 void write_stream_csv(const std::filesystem::path& path, const StreamSource& source) {
-  AtomicFile file(path);
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  AtomicFile file(path, ending == ".gz" ? AtomicFile::Packing::kGzip : AtomicFile::Packing::kPlain);
   file.append(kStreamCsvHeader);
   file.append("\n");
   fmt::memory_buffer text;

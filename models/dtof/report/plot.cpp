@@ -15,8 +15,10 @@
 #include <system_error>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/progress.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/input_file.hpp"
+#include "dtof/io/output_error.hpp"
 #include "dtof/report/utf8.hpp"
 
 namespace dtof {
@@ -215,6 +217,51 @@ std::string gnuplot_script(const std::filesystem::path& output, const std::vecto
          plots(series, layout);
 }
 
+struct FileCloser {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+/// A file for what gnuplot says. It warns of an axis of one value, which it then draws.
+using Complaints = std::unique_ptr<std::FILE, FileCloser>;
+
+/// The last line that is not empty, as ": <line>"; empty if there is none.
+std::string last_complaint(const Complaints& complaints) {
+  std::string last;
+  if (complaints) {
+    std::rewind(complaints.get());
+    for (std::array<char, 512> line{}; std::fgets(line.data(), line.size(), complaints.get()) != nullptr;) {
+      std::string text = line.data();
+      std::erase(text, '\n');
+      last = text.find_first_not_of(' ') == std::string::npos ? last : ": " + text;
+    }
+  }
+  return last;
+}
+
+/// Lets gnuplot draw. Throws InputError if it fails.
+void run_gnuplot(const std::filesystem::path& path, const std::string& script) {
+  struct Close {
+    int* status;
+    void operator()(std::FILE* pipe) const { *status = pclose(pipe); }
+  };
+  const Complaints complaints(std::tmpfile());
+  const std::string errors =
+      complaints ? fmt::format("/dev/fd/{}", ::fileno(complaints.get())) : std::string("/dev/null");
+  int status = -1;
+  {
+    const std::unique_ptr<std::FILE, Close> pipe(popen(("gnuplot 2>" + errors).c_str(), "w"), Close{&status});
+    if (pipe == nullptr) {
+      throw InputError(fmt::format("{}: cannot plot: gnuplot does not start", path.string()));
+    }
+    fmt::print(pipe.get(), "{}", script);
+  }
+  if (status != 0) {
+    check_interruption();  // which gnuplot may have got, too
+    throw InputError(fmt::format("{}: cannot plot: gnuplot failed (is it installed?){}", path.string(),
+                                 last_complaint(complaints)));
+  }
+}
+
 }  // namespace
 
 std::span<const PlotStyle> plot_styles() { return kStyles; }
@@ -241,26 +288,18 @@ void write_plot(const std::filesystem::path& path, const std::vector<PlotSeries>
                 const PlotLayout& layout) {
   const std::filesystem::path drawn = std::filesystem::path(path).concat(".gnuplot");
   std::error_code ignored;
-  {
-    struct Close {
-      int* status;
-      void operator()(std::FILE* pipe) const { *status = pclose(pipe); }
-    };
-    int status = -1;
-    {
-      const std::unique_ptr<std::FILE, Close> pipe(popen("gnuplot", "w"), Close{&status});
-      if (pipe == nullptr) {
-        throw InputError(fmt::format("{}: cannot plot: gnuplot does not start", path.string()));
-      }
-      fmt::print(pipe.get(), "{}", gnuplot_script(drawn, series, layout));
-    }
-    if (status != 0) {
-      std::filesystem::remove(drawn, ignored);
-      throw InputError(fmt::format("{}: cannot plot: gnuplot failed (is it installed?)", path.string()));
-    }
+  std::string picture;
+  try {
+    run_gnuplot(path, gnuplot_script(drawn, series, layout));
+    picture = std::filesystem::file_size(drawn) == 0 ? "" : read_file(drawn);
+  } catch (...) {
+    std::filesystem::remove(drawn, ignored);
+    throw;
   }
-  const std::string picture = read_file(drawn);
   std::filesystem::remove(drawn, ignored);
+  if (!picture.ends_with("</svg>\n\n") && !picture.ends_with("</svg>\n")) {  // gnuplot overlooks a full disk
+    throw OutputError(fmt::format("{}: cannot write: gnuplot's picture is not whole", path.string()));
+  }
   write_file(path, picture);
 }
 

@@ -163,12 +163,13 @@ class SensorReader {
     if (!node.is_number() || (key.whole && !node.is_integer())) {
       fail(node, fmt::format("{} must be a {}number", key.name, key.whole ? "whole " : ""));
     }
-    const double value = *node.value<double>() + 0.0;  // -0 is 0
-    const bool high_enough = key.lowest_allowed ? value >= key.lowest : value > key.lowest;
-    // Written so that a NaN fails.
-    if (!(high_enough && value <= key.highest)) {
-      fail(node, fmt::format("{} is {:g}, but must be {} ({})", key.name, value, sensor_key_limits(key),
-                             key.reason));
+    // An integer beyond 2^53 has no value<double>(); -0 is 0.
+    const double value =
+        node.is_integer() ? static_cast<double>(**node.as_integer()) : **node.as_floating_point() + 0.0;
+    const std::string text =
+        node.is_integer() ? fmt::format("{}", **node.as_integer()) : fmt::format("{}", value);
+    if (const std::string error = sensor_number_error(key, value, text); !error.empty()) {
+      fail(node, error);
     }
     return value;
   }
@@ -178,8 +179,11 @@ class SensorReader {
     if (node == nullptr) {
       return std::nullopt;
     }
-    if (!node->is_string() || (*node->as_string())->empty()) {
+    if (!node->is_string()) {
       fail(*node, fmt::format("{} must be text in quotation marks", key));
+    }
+    if ((*node->as_string())->empty()) {
+      fail(*node, fmt::format("{} is empty; leave the key out if there is none", key));
     }
     return **node->as_string();
   }
@@ -194,11 +198,14 @@ class SensorReader {
 
   /// What `read` makes of a file, its complaints with the line of the key that names the file.
   template <typename Read>
-  auto reading(std::string_view section, std::string_view key, Read read) const {
+  auto reading(std::string_view section, std::string_view key, const std::filesystem::path& file,
+               Read read) const {
     try {
       return read();
     } catch (const InputError& error) {
-      fail(*find(section, key), fmt::format("{}: {}", key, error.what()));
+      const std::string reason = error.what();
+      const bool named = reason.starts_with(file.string());
+      fail(*find(section, key), fmt::format("{}: {}{}", key, named ? "" : file.string() + ": ", reason));
     }
   }
 
@@ -214,7 +221,7 @@ class SensorReader {
       return;
     }
     require("laser", "pulse_response_file", draft.response_bin_s > 0.0, "pulse_response_bin_ps");
-    draft.model.pulse_response = reading("laser", "pulse_response_file", [&] {
+    draft.model.pulse_response = reading("laser", "pulse_response_file", beside(*file), [&] {
       NpyArray array = read_npy(beside(*file));
       if (array.shape.size() != 1) {
         throw InputError(fmt::format("{} dimensions instead of one", array.shape.size()));
@@ -241,13 +248,15 @@ class SensorReader {
     if (!file) {
       return;
     }
-    require("tdc", "code_widths_file", column.has_value() != row.has_value(),
-            "either code_widths_column or code_widths_row");
+    require("tdc", "code_widths_file", column || row, "either code_widths_column or code_widths_row");
+    if (column && row) {
+      fail(*find("tdc", "code_widths_row"), "the widths are in code_widths_column, too: give one of the two");
+    }
     const toml::node* edges = find("tdc", "code_widths_are_edges");
     if (edges != nullptr && !edges->is_boolean()) {
       fail(*edges, "code_widths_are_edges must be true or false");
     }
-    model.tdc_codes = reading("tdc", "code_widths_file", [&] {
+    model.tdc_codes = reading("tdc", "code_widths_file", beside(*file), [&] {
       const CsvTable table(beside(*file));
       std::vector<std::vector<double>> widths;
       if (column) {

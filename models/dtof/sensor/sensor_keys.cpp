@@ -316,6 +316,14 @@ std::string sensor_key_limits(const SensorNumberKey& key) {
                             : fmt::format("above {} to {}", key.lowest, key.highest);
 }
 
+std::string sensor_number_error(const SensorNumberKey& key, double value, std::string_view text) {
+  const bool high_enough = key.lowest_allowed ? value >= key.lowest : value > key.lowest;
+  // Written so that a NaN fails.
+  return high_enough && value <= key.highest ? ""
+                                             : fmt::format("{} is {}, but must be {} ({})", key.name, text,
+                                                           sensor_key_limits(key), key.reason);
+}
+
 std::string sensor_key_table() {
   std::string table = "| key | default | limits | meaning |\n|---|---|---|---|\n";
   for (const std::string_view section : kSections) {

@@ -63,6 +63,9 @@ std::span<const std::string_view> sensor_sections();
 std::vector<std::string_view> sensor_keys_of(std::string_view section);
 /// "0 to 5", or "above 0 to 5".
 std::string sensor_key_limits(const SensorNumberKey& key);
+/// "columns is 0, but must be 1 to 4096 (<reason>)" for a value outside of the limits; empty for one inside.
+/// `text`: the value as the message has it.
+std::string sensor_number_error(const SensorNumberKey& key, double value, std::string_view text);
 
 /// Transmittance of a clear glass pane.
 inline constexpr double kClearGlass = 0.92;

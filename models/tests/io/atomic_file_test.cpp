@@ -78,6 +78,23 @@ TEST_F(AtomicFileTest, KeepsASymbolicLink) {
   EXPECT_EQ(contents(file), "new");
 }
 
+TEST_F(AtomicFileTest, WritesTheFileThatALinkNamesAndThatIsNotThereYet) {
+  std::filesystem::create_directory(path("folder"));
+  std::filesystem::create_symlink("folder/second", path("first"));
+  std::filesystem::create_symlink("file", path("folder/second"));
+  write_file(path("first"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(path("first")));
+  EXPECT_TRUE(std::filesystem::is_symlink(path("folder/second")));
+  EXPECT_EQ(contents(path("folder/file")), "new");
+  std::filesystem::create_symlink(path("none/file"), path("dead"));
+  test::expect_input_error([&] { write_file(path("dead"), "new"); },
+                           path("dead").string() + ": cannot write: No such file or directory");
+  std::filesystem::create_symlink("self", path("self"));
+  test::expect_input_error([&] { write_file(path("self"), "new"); },
+                           path("self").string() + ": cannot write: Too many levels of symbolic links");
+  EXPECT_TRUE(std::filesystem::is_symlink(path("self")));
+}
+
 TEST_F(AtomicFileTest, WritesToADeviceDirectly) {
   write_file("/dev/null", "x");
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
@@ -134,9 +151,14 @@ TEST_F(AtomicFileTest, GzipIsUnpackedFromAPipe) {
   const std::string packed = contents(path("a.gz"));
   EXPECT_EQ(read_file_or_gzip(pipe_of(packed)), text);
   EXPECT_EQ(read_file_or_gzip(pipe_of("plain")), "plain");
-  // Members follow each other, as `cat a.gz b.gz` writes them; what is no member is ignored, as gzip does.
+  // Members follow each other, as `cat a.gz b.gz` writes them; what is no member is refused.
   EXPECT_EQ(unpack_gzip("a.gz", packed + packed), text + text);
-  EXPECT_EQ(unpack_gzip("a.gz", packed + "rest"), text);
+  for (const std::string& rest : {std::string("rest"), std::string(1, '\0'), std::string("\x1f!")}) {
+    test::expect_input_error([&] { (void)unpack_gzip("a.gz", packed + rest); },
+                             "a.gz: damaged gzip data: other bytes follow");
+    test::expect_input_error([&] { (void)read_file_or_gzip(pipe_of(packed + packed + rest)); },
+                             EndsWith("damaged gzip data: other bytes follow"));
+  }
   test::expect_input_error([&] { (void)unpack_gzip("a.gz", packed, 1U << 18U); },
                            "a.gz: more than 0 MiB to read");
   for (std::size_t size = 2; size < packed.size(); size += 7) {

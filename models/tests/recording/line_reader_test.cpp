@@ -68,6 +68,12 @@ TEST_F(LineReaderTest, RefusalsNameFileAndLine) {
         (void)lines_of(reader);
       },
       EndsWith("cut.gz: damaged gzip data: the file ends early"));
+  test::expect_input_error(
+      [&] {
+        LineReader reader(write("rest.gz", packed + packed + "rest"));
+        (void)lines_of(reader);
+      },
+      EndsWith("rest.gz: damaged gzip data: other bytes follow"));
   LineReader reader("a.log", "one\ntwo\n");
   (void)lines_of(reader);
   test::expect_input_error([&] { reader.fail("wrong"); }, "a.log:2: wrong");

@@ -13,6 +13,7 @@
 
 #include "dtof/core/random.hpp"
 #include "dtof/io/atomic_file.hpp"
+#include "dtof/io/input_file.hpp"
 #include "dtof/recording/recording.hpp"
 #include "tests/io/io_test_support.hpp"
 
@@ -38,14 +39,14 @@ class StreamCsvTest : public test::IoTest {
 };
 
 TEST_F(StreamCsvTest, SortsByPixelAndAcquisitionAndKeepsSlotOrder) {
-  const RecordedStream stream = read("5,1,0,30\n2,0,1,7\n5,1,0,20\n0,1,0,1023\n2,0,1,6\n");
+  const RecordedStream stream = read("5,1,0,30\n2,0,1,7\n5,1,0,20\n0,1,0,1022\n2,0,1,6\n");
   EXPECT_EQ(stream.columns(), 2);
   EXPECT_EQ(stream.rows(), 2);
   EXPECT_EQ(stream.acquisitions(), 6U);
   EXPECT_EQ(stream.detection_count(), 5U);
   EXPECT_THAT(stream.column(0).row(0), IsEmpty());
   EXPECT_THAT(stream.column(0).row(1), ElementsAre(Detection{2, 7}, Detection{2, 6}));
-  EXPECT_THAT(stream.column(1).row(0), ElementsAre(Detection{0, 1023}, Detection{5, 30}, Detection{5, 20}));
+  EXPECT_THAT(stream.column(1).row(0), ElementsAre(Detection{0, 1022}, Detection{5, 30}, Detection{5, 20}));
   EXPECT_THAT(stream.column(1).row(1), IsEmpty());
 }
 
@@ -237,7 +238,7 @@ TEST_F(StreamCsvTest, RandomStreamSurvivesTheRoundTripAndShufflingOfPixels) {
     for (int row = 0; row < kRows; ++row) {
       for (std::uint32_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
         for (std::uint32_t slot = random() % 4; slot > 0; --slot) {
-          column.append({acquisition, static_cast<Timestamp>(random() % 4096)});
+          column.append({acquisition, static_cast<Timestamp>(random() % 4095)});
         }
       }
       column.finish_row();
@@ -276,6 +277,30 @@ TEST_F(StreamCsvTest, RandomStreamSurvivesTheRoundTripAndShufflingOfPixels) {
   for (int column = 0; column < kColumns; ++column) {
     EXPECT_EQ(mixed.column(column), original.column(column));
   }
+}
+
+TEST_F(StreamCsvTest, ATimestampOfAllOnesIsNoDetection) {
+  const RecordedStream stream = read("0,0,0,1023\n1,0,0,7\n1,0,0,1023\n1,0,0,8\n9,2,3,1023\n0,1,1,-1\n");
+  EXPECT_EQ(stream.columns(), 3);
+  EXPECT_EQ(stream.rows(), 4);
+  EXPECT_EQ(stream.acquisitions(), 10U);
+  EXPECT_EQ(stream.detection_count(), 2U);
+  EXPECT_THAT(stream.column(0).row(0), ElementsAre(Detection{1, 7}, Detection{1, 8}));
+  EXPECT_EQ(read("0,0,0,255\n", {.np = 8}).detection_count(), 0U);
+  EXPECT_EQ(read("0,0,0,255\n", {.np = 9}).detection_count(), 1U);
+}
+
+TEST_F(StreamCsvTest, ANameThatEndsWithGzIsPacked) {
+  const RecordedStream stream = read("0,0,0,1\n0,0,1,2\n5,1,0,3\n");
+  write_stream_csv(path("a.csv"), stream);
+  for (const char* name : {"a.csv.gz", "a.CSV.GZ"}) {
+    write_stream_csv(path(name), stream);
+    EXPECT_EQ(contents(path(name)).substr(0, 2), "\x1f\x8b");
+    EXPECT_EQ(read_file_or_gzip(path(name)), contents(path("a.csv")));
+  }
+  EXPECT_EQ(read_stream_csv(path("a.csv.gz"), {}).column(1), stream.column(1));
+  write_stream_csv(path("b.csv.gz"), stream);
+  EXPECT_EQ(contents(path("a.csv.gz")), contents(path("b.csv.gz")));
 }
 
 TEST_F(StreamCsvTest, UnwritableOutputLeavesNothing) {

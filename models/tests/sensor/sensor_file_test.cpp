@@ -120,6 +120,14 @@ TEST(SensorFile, WrongTypesAndValuesAreRefusedWithTheLine) {
   EXPECT_THAT(refusal(with("range_ns = 60", "range_ns = nan")), HasSubstr("range_ns is nan"));
   EXPECT_THAT(refusal(with("range_ns = 60", "range_ns = inf")), HasSubstr("range_ns is inf"));
   EXPECT_THAT(refusal(with("acquisitions = 500", "acquisitions = -1")), HasSubstr("acquisitions is -1"));
+  for (const char* number : {"4294967296", "3000000", "9223372036854775807"}) {
+    EXPECT_THAT(refusal(with("acquisitions = 500", std::string("acquisitions = ") + number)),
+                HasSubstr(std::string("acquisitions is ") + number + ", but must be 1 to 1048575"));
+  }
+  EXPECT_THAT(refusal(with("range_ns = 60", "range_ns = 4294967296")),
+              HasSubstr("range_ns is 4294967296, but"));
+  EXPECT_THAT(refusal(with("pulse_fwhm_ns = 1.5", "pulse_response_file = \"\"")),
+              HasSubstr("pulse_response_file is empty; leave the key out if there is none"));
   EXPECT_THAT(refusal(with("[light]", "[light]\ndefault_reflectivity = 5")),
               HasSubstr("a white matt surface"));
   EXPECT_THAT(refusal(std::string("name = 3\n") + kLeast), HasSubstr("name must be text"));
@@ -358,6 +366,13 @@ TEST_F(SensorFiles, CodeWidthsOfAColumnALineOrEveryLine) {
   EXPECT_THAT(refusal_of("code_widths_row = \"all\"\ncode_widths_are_edges = 1"), HasSubstr("true or false"));
   EXPECT_THAT(refused(with("[tdc]", "[tdc]\ncode_widths_row = \"all\"")),
               HasSubstr("needs code_widths_file"));
+  EXPECT_THAT(refusal_of("code_widths_row = \"x\"\ncode_widths_column = \"b\""),
+              HasSubstr("my.toml:3: the widths are in code_widths_column, too: give one of the two"));
+  EXPECT_THAT(refusal_of("code_widths_row = \"\""),
+              HasSubstr("code_widths_row is empty; leave the key out if there is none"));
+  write("codes.csv", "tdc,a,b,c\nx,1,-3,4\n");
+  EXPECT_THAT(refusal_of("code_widths_row = \"x\""),
+              HasSubstr("codes.csv: TDC code widths: table 0, code 1: the width is -3"));
   write("codes.csv", "tdc,a,b,c\nx,1,3\n");
   EXPECT_THAT(refusal_of("code_widths_row = \"x\""),
               HasSubstr("codes.csv:2: 3 fields, but the first line has 4"));
