@@ -80,6 +80,9 @@ void Hdf5Numbers::find_count() {
 void Hdf5Numbers::find_layout() {
   const Hdf5Handle created(H5Dget_create_plist(dataset_), H5Pclose);
   const H5D_layout_t layout = created.good() ? H5Pget_layout(created.id()) : H5D_LAYOUT_ERROR;
+  if (layout == H5D_VIRTUAL || (created.good() && H5Pget_external_count(created.id()) > 0)) {
+    fail("the dataset's numbers are in other files, which are not read");
+  }
   any_place_ = !matlab_ && (layout == H5D_CONTIGUOUS || layout == H5D_COMPACT);
   if (layout != H5D_CHUNKED || shape_.empty()) {
     return;

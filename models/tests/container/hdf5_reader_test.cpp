@@ -263,6 +263,8 @@ TEST_F(Hdf5ReaderTest, WhatCannotBeReadIsRefusedWhenItIsOpened) {
   open();
   test::write_hdf5(path("a.h5"), {3, 0}, {}, H5T_STD_U8LE);
   refused(open, "/a: the array is empty");
+  test::write_hdf5(path("a.h5"), {4}, {}, H5T_STD_U8LE, {.external = "/etc/hostname"});
+  refused(open, "/a: the dataset's numbers are in other files, which are not read");
   expect_no_child();
 }
 

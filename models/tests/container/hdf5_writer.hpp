@@ -19,7 +19,8 @@ struct Hdf5Layout {
   bool deflate = false;
   bool shuffle = false;
   bool fletcher32 = false;
-  bool matlab = false;  ///< a variable of MATLAB's, whose axes the file has in reverse
+  std::string external = {};  ///< file with the numbers
+  bool matlab = false;        ///< a variable of MATLAB's, whose axes the file has in reverse
 };
 
 /// The array as MATLAB lays it out: the first axis of `shape` varies fastest.
@@ -57,6 +58,9 @@ inline void write_hdf5(const std::filesystem::path& path, std::vector<hsize_t> s
   }
   if (!layout.chunk.empty()) {
     H5Pset_chunk(created, static_cast<int>(layout.chunk.size()), layout.chunk.data());
+  }
+  if (!layout.external.empty()) {
+    H5Pset_external(created, layout.external.c_str(), 0, H5F_UNLIMITED);
   }
   if (layout.shuffle) {
     H5Pset_shuffle(created);
