@@ -55,11 +55,12 @@ class Programs : public ::testing::Test {
     return run_shell(fmt::format("cd '{}' && {} {}", folder_.string(), program, arguments));
   }
 
-  /// Bad input: exit code 1 and exactly one line, which holds `reason`; no output folder is filled.
-  void expect_refused(const std::string& arguments, const std::string& reason) const {
+  /// Exit code 1 (bad input) or another, and exactly one line, which holds `reason`; no output folder is
+  /// filled.
+  void expect_refused(const std::string& arguments, const std::string& reason, int exit_code = 1) const {
     SCOPED_TRACE(arguments);
     const Outcome outcome = dtof(arguments);
-    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.exit_code, exit_code);
     EXPECT_THAT(outcome.output, ::testing::HasSubstr(reason));
     EXPECT_THAT(outcome.output,
                 ::testing::StartsWith(program_of(arguments) == DTOF_PROGRAM ? "dtof: error: "

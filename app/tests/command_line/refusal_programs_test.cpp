@@ -134,11 +134,12 @@ TEST_F(Programs, RefusesBadScenesAndMeasurements) {
 
 TEST_F(Programs, RefusesAnUnwritableOutput) {
   const std::string blocked = file("blocked", "a file, not a folder");
-  expect_refused(fmt::format("frame -r fifh {} --out blocked/out", kSmallScene), "blocked");
+  constexpr int kUnwritable = 4;
+  expect_refused(fmt::format("frame -r fifh {} --out blocked/out", kSmallScene), "blocked", kUnwritable);
   expect_refused(fmt::format("frame -r fifh {} --record nowhere/stream.csv --out out", kSmallScene),
-                 "nowhere");
-  expect_refused("design --sensor thesis --out blocked/out",
-                 "blocked");  // before its work, which takes minutes
+                 "nowhere", kUnwritable);
+  // before its work, which takes minutes
+  expect_refused("design --sensor thesis --out blocked/out", "blocked", kUnwritable);
   EXPECT_EQ(read_file(blocked), "a file, not a folder");
 }
 
