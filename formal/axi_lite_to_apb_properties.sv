@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Proves of dtof_axi_lite_to_apb: every read and every write is on the APB once, in order, with its address and data; its response comes
-// back once, in order, with the APB's answer; APB and responses follow their protocols, and both reads and writes make progress. The
-// harness watches one arbitrary read and one arbitrary write of every eight, and one arbitrary bit of the data.
+// back once, in order, with the APB's answer; APB and responses follow their protocols, and both reads and writes make progress. In reset
+// no request is taken. The harness watches one arbitrary read and one arbitrary write of every eight, and one arbitrary bit of the data.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -167,6 +167,7 @@ module axi_lite_to_apb_properties #(
       .pslverr_i(pslverr_i)
   );
 
+  `PROVE(a_not_ready_in_reset, rst_n || (!awready && !wready && !arready))
   // APB
   `PROVE(a_read, !(rst_n && psel && !pwrite) || (apb_reads_q != ar_q && (apb_reads_q != watched || (paddr == ar_address_q && pstrb == '0))))
   `PROVE(a_write, !(rst_n && psel && pwrite) || (apb_writes_q != aw_q && apb_writes_q != w_q

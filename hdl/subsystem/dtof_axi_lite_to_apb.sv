@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // AXI4-Lite to APB4, one transfer at a time. If a read and a write are both pending, the kind that was not last goes first.
 //
-// 1. Address and data of a request are registered as they come, in any order: every ready comes from a flip-flop, and no path leads
-//    from one channel to another.
+// 1. Address and data of a request are registered as they come, in any order: every ready comes from flip-flops, and no path leads
+//    from one channel to another. In reset every ready is low, so that a master in another reset domain loses no request.
 // 2. A read, or a write with both of its parts, starts on the APB when the transfer before has ended and its response will have room.
 // 3. Two responses of each kind are stored until their ready. pslverr_i becomes the response SLVERR. The prot signals are not used.
 //
 // Schedule: clock 0 the last part of a request, clock 1 that part is registered, clocks 2 and 3 setup and access on the APB,
 //   clock 4 the response. Latency: four clocks from the last part of a request to its response, plus wait states of the APB.
 // Throughput: a read every two clocks plus wait states.
-// Cost: address and data of a request and of a transfer, two responses of each kind, ten state bits.
+// Cost: address and data of a request and of a transfer, two responses of each kind, eleven state bits.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -60,19 +60,23 @@ module dtof_axi_lite_to_apb #(
   logic [31:0] w_data_q;
   logic [3:0] w_strobe_q;
 
-  assign s_axi_awready_o = !aw_held_q;
-  assign s_axi_wready_o = !w_held_q;
-  assign s_axi_arready_o = !ar_held_q;
+  logic live_q;  // not in reset
+
+  assign s_axi_awready_o = live_q && !aw_held_q;
+  assign s_axi_wready_o = live_q && !w_held_q;
+  assign s_axi_arready_o = live_q && !ar_held_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      live_q <= 1'b0;
       aw_held_q <= 1'b0;
       w_held_q <= 1'b0;
       ar_held_q <= 1'b0;
     end else begin
-      aw_held_q <= aw_held_q ? !takes_write : s_axi_awvalid_i;
-      w_held_q <= w_held_q ? !takes_write : s_axi_wvalid_i;
-      ar_held_q <= ar_held_q ? !takes_read : s_axi_arvalid_i;
+      live_q <= 1'b1;
+      aw_held_q <= aw_held_q ? !takes_write : (live_q && s_axi_awvalid_i);
+      w_held_q <= w_held_q ? !takes_write : (live_q && s_axi_wvalid_i);
+      ar_held_q <= ar_held_q ? !takes_read : (live_q && s_axi_arvalid_i);
     end
   end
 
