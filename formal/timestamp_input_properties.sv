@@ -19,9 +19,7 @@ module timestamp_input_properties #(
 
   logic [NP-1:0] timestamp_t1, last_q;
   logic detected_t0, detected_t1;
-  logic [1:0] comes;
   logic expected;
-  logic [NP-1:0] next_timestamp;  // one clock before T0
 
   dtof_timestamp_input #(
       .NP       (NP),
@@ -33,7 +31,6 @@ module timestamp_input_properties #(
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
       .detected_t0_o (detected_t0),
-      .comes_o       (comes),
       .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );
@@ -47,7 +44,6 @@ module timestamp_input_properties #(
   assign checking = known[STAGES+1];
   assign timestamp_t0 = timestamps_q[(STAGES-1)*NP+:NP];
   assign timestamp_q = timestamps_q[STAGES*NP+:NP];
-  assign next_timestamp = (STAGES == 1) ? timestamp_i : timestamps_q[((STAGES > 1) ? STAGES-2 : 0)*NP+:NP];
   assign expected = (32'(timestamp_t0) != (1 << NP) - 1)
       && ((TIME_GATE == 0) || (gate_begin_i <= timestamp_t0 && timestamp_t0 < gate_end_i));
 
@@ -59,7 +55,6 @@ module timestamp_input_properties #(
   end
 
   `PROVE(a_detected, detected_t0 == expected)
-  `PROVE(a_comes, comes == {next_timestamp != '1, timestamp_t0 != '1})
   `PROVE(a_detected_late, detected_t1 == expected_q)
   `PROVE(a_detection_passes, !expected_q || timestamp_t1 == timestamp_q)
   `PROVE(a_kept, expected_q || timestamp_t1 == last_q)

@@ -29,7 +29,6 @@ module dtof_timestamp_input #(
     input  logic [NP-1:0] gate_begin_i,
     input  logic [NP-1:0] gate_end_i,
     output logic          detected_t0_o,  // combinational if TIME_GATE = 1
-    output logic [   1:0] comes_o,        // before the gate: a detection is at T0 (bit 0), one is one clock before T0 (bit 1)
     output logic          detected_t1_o,
     output logic [NP-1:0] timestamp_t1_o  // last detection
 );
@@ -71,7 +70,6 @@ module dtof_timestamp_input #(
   endgenerate
 
   assign detected_t0_o = detected[STAGES] && in_gate;
-  assign comes_o = {detected[STAGES-1], detected[STAGES]};
 
   always_ff @(posedge clk_i) begin
     detected_q <= detected_t0_o;

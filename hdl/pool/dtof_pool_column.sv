@@ -65,7 +65,8 @@ module dtof_pool_column #(
 
   logic [NP-1:0] timestamp_t1, first_q, second, second_q;
   logic [CELL_WIDTH-1:0] first_cell;
-  logic [1:0] comes;
+  logic [BROADCAST_STAGES:0] comes;
+  logic [BROADCAST_STAGES-1:0] comes_q;
   logic valid_t1, has_first, has_first_q, has_second, has_second_q, unused_detected, detected_t1;
 
   dtof_timestamp_input #(
@@ -78,13 +79,18 @@ module dtof_pool_column #(
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
       .detected_t0_o (unused_detected),
-      .comes_o       (comes),
       .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );
 
   assign valid_t1 = beat_t1_i && detected_t1;
-  assign comes_o = {comes != '0, detected_t1 || comes[0]};
+
+  // Detections before the gate; bit s: s clocks after the port. dtof_timestamp_input has the same registers; synthesis merges them.
+  assign comes = {comes_q, timestamp_i != '1};
+  always_ff @(posedge clk_i) begin
+    comes_q <= comes[BROADCAST_STAGES-1:0];
+  end
+  assign comes_o = {comes[BROADCAST_STAGES:BROADCAST_STAGES-1] != '0, detected_t1 || comes[BROADCAST_STAGES]};
   assign has_first = valid_t1 || (has_first_q && !first_slot_t1_i);
   assign first_cell = (first_slot_t1_i || !has_first_q) ? timestamp_t1[NP-1-:CELL_WIDTH] : first_q[NP-1-:CELL_WIDTH];
 

@@ -142,6 +142,7 @@ module dtof_pool_pair #(
       .keep_first_i(keep_first_i),
       .keep_last_i (keep_last_i),
       .load_i      (load_i),
+      .wanted_i    (wanted_i),
       .may_count_i (may_count_q),
       .waiting_o   (bins_waiting),
       .wants_o     (bins_want),
@@ -173,7 +174,9 @@ module dtof_pool_pair #(
   assign word_load = engine_load_i || word_load_i || (load_i && wanted_i);
 
   always_ff @(posedge clk_i) begin
-    may_count_q <= !optional_i || wants_o;
+    if (read_i) begin
+      may_count_q <= !optional_i || wants_o;
+    end
     changed_q <= takes_pixel[2:0] | (changed_q & {3{!due_i}});
     if (group_load_i) begin
       cells_q <= group_upper_i ? read_data_i[HALF_WIDTH+:CELLS_WIDTH] : read_data_i[CELLS_WIDTH-1:0];

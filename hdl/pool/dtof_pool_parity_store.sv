@@ -14,7 +14,7 @@
 //   write                            registered   memory written
 // With WAY_CLOCKS > 0 all of this comes as many clocks later.
 // Latency: POOL_PARITY_CLOCKS + WAY_CLOCKS + 3 from an access to error_o.
-// Cost: a single-port SRAM of DEPTH words and a bit for each SRAM; seven flip-flops for each SRAM, three comparators of addresses.
+// Cost: a single-port SRAM of DEPTH words and a bit for each SRAM; seven flip-flops for each SRAM, four comparators of addresses.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD

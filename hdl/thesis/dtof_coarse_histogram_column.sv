@@ -135,8 +135,6 @@ module dtof_coarse_histogram_column #(
   logic [POSITION_WIDTH-1:0] position;
   logic [RESULT_WIDTH-1:0] result;
 
-  logic [1:0] unused_comes;
-
   dtof_timestamp_input #(
       .NP       (NP),
       .TIME_GATE(TIME_GATE),
@@ -147,7 +145,6 @@ module dtof_coarse_histogram_column #(
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
       .detected_t0_o (unused_detected),
-      .comes_o       (unused_comes),
       .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );

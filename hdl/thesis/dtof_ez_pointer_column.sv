@@ -121,8 +121,6 @@ module dtof_ez_pointer_column #(
   assign unused_next_counter_full = next_counter_full_i;
   assign counter_full_o = 1'b0;
 
-  logic [1:0] unused_comes;
-
   dtof_timestamp_input #(
       .NP       (NP),
       .TIME_GATE(TIME_GATE),
@@ -133,7 +131,6 @@ module dtof_ez_pointer_column #(
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
       .detected_t0_o (detected_t0),
-      .comes_o       (unused_comes),
       .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );

@@ -132,8 +132,6 @@ module dtof_his_pointer_column #(
 
   assign sram_cfg_o = histogram_cfg & pointer_cfg;
 
-  logic [1:0] unused_comes;
-
   dtof_timestamp_input #(
       .NP       (NP),
       .TIME_GATE(TIME_GATE),
@@ -144,7 +142,6 @@ module dtof_his_pointer_column #(
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
       .detected_t0_o (detected_t0),
-      .comes_o       (unused_comes),
       .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );

@@ -121,8 +121,6 @@ module dtof_partitioned_histogram_column #(
   logic signed [NP+1:0] unused_start;
   logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] histogram_cfg;
 
-  logic [1:0] unused_comes;
-
   dtof_timestamp_input #(
       .NP       (NP),
       .TIME_GATE(TIME_GATE),
@@ -133,7 +131,6 @@ module dtof_partitioned_histogram_column #(
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
       .detected_t0_o (unused_detected),
-      .comes_o       (unused_comes),
       .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );
