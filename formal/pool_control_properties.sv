@@ -95,7 +95,7 @@ module pool_control_properties #(
   );
 
   logic beat_t1, first_slot_t1, odd_t1, second_row_t0, first_row_t2, second_row_t2, last_slot_t1, ready;
-  logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
+  logic keep_first, keep_last, load, stream_read, stream_optional, stream_late, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
   logic [PART_WIDTH-1:0] part;
   logic sweep, make_room;
@@ -133,6 +133,8 @@ module pool_control_properties #(
       .sweep_o          (sweep),
       .make_room_o      (make_room),
       .read_d_o         (stream_read),
+      .optional_d_o     (stream_optional),
+      .late_d_o         (stream_late),
       .write_d_o        (stream_write),
       .address_d_o      (stream_address),
       .word_load_d_o    (stream_word_load),
@@ -141,7 +143,7 @@ module pool_control_properties #(
   );
 
   // As in dtof_pool_pointer_array.
-  logic coarse_q, point_q, engine_q, read_q, write_q, group_load_q, group_upper_q;
+  logic coarse_q, point_q, engine_q, read_q, optional_q, late_q, write_q, group_load_q, group_upper_q;
   logic [ADDR_WIDTH-1:0] address_q;
 
   always_ff @(posedge clk_i or negedge checking) begin
@@ -158,6 +160,8 @@ module pool_control_properties #(
     coarse_q <= coarse;
     point_q <= point;
     engine_q <= !stream;
+    optional_q <= stream_optional;
+    late_q <= stream_late;
     address_q <= clear ? clear_address : (stream ? stream_address : engine_address_i);
     group_load_q <= group_load;
     group_upper_q <= group_upper;
@@ -201,6 +205,8 @@ module pool_control_properties #(
       .sweep_i         (sweep),
       .make_room_i     (make_room),
       .read_i          (read_q),
+      .optional_i      (optional_q),
+      .late_i          (late_q),
       .write_i         (write_q),
       .address_i       (address_q),
       .word_load_d_i   (stream_word_load),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Proves of dtof_pool_parity_store with a dtof_pool_word_parity at each of two SRAMs: words that are as they were written raise no error; a
 // word of which an odd number of bits has changed raises an error in the clock that the headers state. Accesses are any that keep the
-// contract: some SRAMs of an address are written without the others only if the address is one of the last three that were read, if its last
+// contract: some SRAMs of an address are written without the others only if the address is one of the last three addresses that were read, if its last
 // read was two clocks ago or earlier, and if the address was not written since.
 `include "properties.svh"
 
@@ -69,14 +69,15 @@ module pool_parity_store_properties #(
     end
   endgenerate
 
-  // The last reads, from two clocks after the read on, until the next access of the address.
+  // The last reads of different addresses, from two clocks after the read on, until the next access of the address.
   logic [KEPT*ADDR_WIDTH-1:0] kept_q;
   logic [KEPT-1:0] valid_q, is_address;
   logic [ADDR_WIDTH-1:0] before_q;
-  logic before_valid_q, reads;
+  logic before_valid_q, reads, keeps;
   integer k;
 
   assign reads = rst_n && read_i && here_i != '0;
+  assign keeps = before_valid_q && !(valid_q[0] && kept_q[ADDR_WIDTH-1:0] == before_q);
 
   always_comb begin
     for (k = 0; k < KEPT; k = k + 1) begin
@@ -89,7 +90,7 @@ module pool_parity_store_properties #(
     before_valid_q <= reads;
     if (!rst_n) begin
       valid_q <= '0;
-    end else if (before_valid_q) begin
+    end else if (keeps) begin
       valid_q <= {valid_q[KEPT-2:0] & ~(is_address[KEPT-2:0] & {(KEPT-1){write_i || reads}}), !(write_i && address_i == before_q)};
       kept_q <= {kept_q[(KEPT-1)*ADDR_WIDTH-1:0], before_q};
     end else begin

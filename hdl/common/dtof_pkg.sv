@@ -195,7 +195,7 @@ package dtof_pkg;
   function automatic int pool_sent_width(input int np, input int address_width, input int row_width, input int pairs,
                                          input int part_width);
     pool_sent_width = 2 * np + address_width + row_width + pairs + part_width + POOL_COMMAND_WIDTH
-        + POOL_SIGNIFICANCE_OFFSET_WIDTH + POOL_TEMPLATE_WIDTH + POOL_THINNING_WIDTH + 32;
+        + POOL_SIGNIFICANCE_OFFSET_WIDTH + POOL_TEMPLATE_WIDTH + POOL_THINNING_WIDTH + 34;
   endfunction
 
   // Bits of a result's confidence: the advantage and both neighbours' penalties.

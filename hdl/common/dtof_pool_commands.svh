@@ -26,6 +26,8 @@
     logic sweep;
     logic make_room;
     logic read;
+    logic optional;
+    logic late;
     logic write;
     logic [ADDR_WIDTH-1:0] address;
     logic word_load;

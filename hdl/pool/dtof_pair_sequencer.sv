@@ -12,6 +12,7 @@
 //   track and point, second pixel of a pair:
 //                            T1: read the next pair's group word, if its group is another and the phase needs groups
 //                            T2: read the next pair; register the group's word
+//                            T3 (SLOTS = 2): read the next pair, if only its second row has a detection
 //                            T3: register the next pair's first pixel
 //                            T4: write this pair; register the next pair
 //   coarse phase, second pixel of a pair, for part k of the two parts of a group's bins:
@@ -20,6 +21,8 @@
 //                            T2 + 2 k: read, T3 + 2 k: register, T4 + 2 k: count, T5 + 2 k: count and write
 // Every 2^POOL_SWEEP_WIDTH-th acquisition of the coarse phase is a sweep: all parts are read and no timestamp counts. In the group's
 // first visit (a pair of rows, with LINE_HALVES = 2 four rows) the columns look for full bins, in its second visit they make room.
+// optional_d_o marks reads that only columns with detections need: parts outside of sweeps, and with SLOTS = 2 the pairs of an
+// acquisition, except its first pair, which is read before the acquisition begins.
 // The outputs read, write, address and the loads are given one clock early (_d); the array registers and distributes them.
 // Latency: the stage of an output is in its name (_t0, _t1, _t2). Cost: counters, and copies of the pair's number per stage.
 `include "dtof_macros.svh"
@@ -70,6 +73,9 @@ module dtof_pair_sequencer #(
     output logic                  make_room_o,       // with sweep_o: this is the group's second visit; low in the other phases
     // SRAM commands, one clock early
     output logic                  read_d_o,
+    output logic                  optional_d_o,      // with read_d_o: columns without detections do not need the word
+    output logic                  late_d_o,          // with optional_d_o: coarse, the part is not the first; otherwise, the read is for the pair's second
+                                                     // row, and T2 has read the word if the first row has a detection
     output logic                  write_d_o,
     output logic [ADDR_WIDTH-1:0] address_d_o,
     output logic                  word_load_d_o,
@@ -275,14 +281,26 @@ module dtof_pair_sequencer #(
   assign keep_last_o = second_row_t3_q && PARTS == 4 && second_pair_t3_q;
   assign pair_t3 = pair_tn[3*PAIR_WIDTH+:PAIR_WIDTH];
 
-  logic prime_group, prime_word, read_group, read_word, write_word;
+  logic prime_group, prime_word, read_group, read_word, write_word, optional_word, late_q;
   assign prime_group = stream_i && groups_i && (prime_q == 3'd1);
   assign prime_word = stream_i && !coarse_i && (prime_q == 3'd2);
   assign read_group = busy_t1_q && groups_i && next_group_t1 && (step_t1_q == STEP_WIDTH'(STEPS - 2));
   assign read_word = busy_t1_q && !coarse_i && (step_t1_q == LAST_STEP);
   assign write_word = second_visit_t3_q;
+  assign optional_word = read_word && SLOTS == 2 && pair_t1_q != LAST_PAIR;
 
-  assign read_d_o = prime_group || prime_word || read_group || read_word || read_part;
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      late_q <= 1'b0;
+    end else begin
+      late_q <= optional_word;
+    end
+  end
+
+  assign read_d_o = prime_group || prime_word || read_group || read_word || late_q || read_part;
+  assign late_d_o = late_q || (read_part && !fetch_tn[FIRST_STAGE]);
+  // With four parts sweep_o has this visit's value from the read of the second part on.
+  assign optional_d_o = optional_word || late_q || (read_part && !((PARTS == 2 || fetch_tn[FIRST_STAGE]) ? sweep_t1 : sweep_o));
   assign write_d_o = write_word || write_part;
   assign group_load_d_o = groups_i && (prime_word || (busy_t1_q && next_group_t1 && step_t1_q == LAST_STEP));
   assign word_load_d_o = (stream_i && !coarse_i && prime_q == 3'd3) || second_visit_t2_q;
@@ -317,6 +335,8 @@ module dtof_pair_sequencer #(
       address_d_o = ADDR_WIDTH'(PIXEL_WORDS);
     end else if (read_word) begin
       address_d_o = ADDR_WIDTH'(next_pair_t1);
+    end else if (late_q) begin
+      address_d_o = ADDR_WIDTH'(pair_t1_q);
     end else if (write_word) begin
       address_d_o = ADDR_WIDTH'(pair_t3);
     end else if (coarse_i) begin

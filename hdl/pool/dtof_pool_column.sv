@@ -47,6 +47,8 @@ module dtof_pool_column #(
     output logic                    compares_t1_o,     // high when the pixel has two timestamps, so that one may be inside; also in some other clocks
     output logic                    detected_t1_o,     // the pixel will have a timestamp at T2
     output logic                    may_have_t1_o,     // early form of detected_t1_o, also high in other clocks
+    // a detection is in one of the two slots that are now at T1 and T0 (bit 0), at T0 and one clock before (bit 1); SLOTS = 2
+    output logic [             1:0] comes_o,
     output logic                    detected_t2_o,     // the pixel has a timestamp
     output logic [          NP-1:0] used_t2_o,         // timestamp that the pixel uses
     output logic [      LABELS-1:0] hits_t2_o,         // candidates that the timestamp hits; 0 without a timestamp
@@ -63,6 +65,8 @@ module dtof_pool_column #(
 
   logic [NP-1:0] timestamp_t1, first_q, second, second_q;
   logic [CELL_WIDTH-1:0] first_cell;
+  logic [BROADCAST_STAGES:0] comes;
+  logic [BROADCAST_STAGES-1:0] comes_q;
   logic valid_t1, has_first, has_first_q, has_second, has_second_q, unused_detected, detected_t1;
 
   dtof_timestamp_input #(
@@ -80,6 +84,13 @@ module dtof_pool_column #(
   );
 
   assign valid_t1 = beat_t1_i && detected_t1;
+
+  // Detections before the gate; bit s: s clocks after the port. dtof_timestamp_input has the same registers; synthesis merges them.
+  assign comes = {comes_q, timestamp_i != '1};
+  always_ff @(posedge clk_i) begin
+    comes_q <= comes[BROADCAST_STAGES-1:0];
+  end
+  assign comes_o = {comes[BROADCAST_STAGES:BROADCAST_STAGES-1] != '0, detected_t1 || comes[BROADCAST_STAGES]};
   assign has_first = valid_t1 || (has_first_q && !first_slot_t1_i);
   assign first_cell = (first_slot_t1_i || !has_first_q) ? timestamp_t1[NP-1-:CELL_WIDTH] : first_q[NP-1-:CELL_WIDTH];
 

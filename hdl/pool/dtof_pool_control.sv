@@ -107,7 +107,7 @@ module dtof_pool_control `DTOF_TYPES_OF(dtof_pool_pkg) #(
   );
 
   logic beat_t1, first_slot_t1, odd_t1, second_row_t0, first_row_t2, second_row_t2, last_slot_t1;
-  logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
+  logic keep_first, keep_last, load, stream_read, stream_optional, stream_late, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
   logic [dtof_pkg::POOL_THINNING_WIDTH-1:0] thinning_t2;
   logic [PART_WIDTH-1:0] part;
@@ -175,6 +175,8 @@ module dtof_pool_control `DTOF_TYPES_OF(dtof_pool_pkg) #(
       .sweep_o          (sweep),
       .make_room_o      (make_room),
       .read_d_o         (stream_read),
+      .optional_d_o     (stream_optional),
+      .late_d_o         (stream_late),
       .write_d_o        (stream_write),
       .address_d_o      (stream_address),
       .word_load_d_o    (stream_word_load),
@@ -300,12 +302,14 @@ module dtof_pool_control `DTOF_TYPES_OF(dtof_pool_pkg) #(
     end
   end
 
-  logic coarse_q, point_q, engine_q, group_load_q, group_upper_q;
+  logic coarse_q, point_q, engine_q, optional_q, late_q, group_load_q, group_upper_q;
 
   always_ff @(posedge clk_i) begin
     coarse_q <= coarse;
     point_q <= point;
     engine_q <= !stream;
+    optional_q <= stream_optional;
+    late_q <= stream_late;
     address_q <= clear ? clear_address : (stream ? stream_address : engine_address);
     group_load_q <= group_load;
     group_upper_q <= group_upper;
@@ -360,6 +364,8 @@ module dtof_pool_control `DTOF_TYPES_OF(dtof_pool_pkg) #(
   assign sent.sweep = sweep;
   assign sent.make_room = make_room;
   assign sent.read = read_q;
+  assign sent.optional = optional_q;
+  assign sent.late = late_q;
   assign sent.write = write_q;
   assign sent.address = address_q;
   assign sent.word_load = stream_word_load;

@@ -4,8 +4,11 @@
 // group, because both columns count in one histogram.
 //
 // All pairs access the same address in a clock. In the coarse phase a column chooses one timestamp of every two rows, and dtof_pool_bins,
-// which has the schedule, adds the choices of both columns to the parts of the group's bins. Of the two parts the second is read only
-// if a choice falls into it, and in a sweep (upper_t2_o).
+// which has the schedule, adds the choices of both columns to the parts of the group's bins.
+//
+// A read may be optional: wants_o is high if a column of this pair has a detection that needs the word. A part of a group's bins is
+// wanted if a choice falls into it; the first part is read before the choices are known, so any detection wants it. A word of pixels is
+// wanted for its first row, or one clock later for its second row.
 //
 // In the other phases one dtof_pool_pixel_update computes the new words of a row's two pixels, one after the other:
 //   clock (T0: last slot of a row)   T2               T3                  T4
@@ -73,8 +76,12 @@ module dtof_pool_pair #(
     // coarse
     input  logic                  keep_first_i,      // four parts: register the choices of the first two of four rows
     input  logic                  keep_last_i,       // four parts: register the choices of the last two rows
+    input  logic                  optional_i,        // with read_i: columns without detections do not need the word
+    input  logic                  late_i,            // with optional_i: coarse, the part is not the first; otherwise, the read is for the second row
+    output logic                  wants_o,           // with optional_i: this pair needs the word
     input  logic                  load_i,            // one clock after read_i. One clock after load_i the last two rows count; with four parts first the
                                                      // first two rows, and then the last two
+    input  logic                  wanted_i,          // with load_i: the part was read
     input  logic [PART_WIDTH-1:0] part_i,            // with load_i: number of the part
     input  logic                  sweep_i,           // while parts would count: nothing counts, and the pair checks the bins
     input  logic                  make_room_i,       // with sweep_i: the group's second visit; low in the other phases
@@ -82,10 +89,11 @@ module dtof_pool_pair #(
     input  logic                  read_i,
     input  logic                  engine_load_i,     // one clock after an engine's read of this SRAM, for this pair or the other
     input  logic [WORD_WIDTH-1:0] read_data_i,       // one clock after read_i
-    output logic                  upper_t2_o,        // coarse, at T2 of a second row: a choice falls into the second of two parts
     output logic [           3:0] write_o,           // with write_i: pixels of the word that may differ from what is stored
     output logic [WORD_WIDTH-1:0] write_data_o,
-    input  logic                  word_load_d_i,     // the word read in this clock is to be loaded into the register; registered here
+    input  logic                  first_load_i,      // one clock after the read of a word of pixels whose first row has a detection
+    input  logic                  word_load_i,       // two clocks after the read, or one clock after a late read: load the word
+    input  logic                  due_i,             // as word_load_i, also if no pixel has a detection and the word was not read
     input  logic                  group_load_i,      // load the group that was read in the last clock
     input  logic                  group_upper_i,     // with group_load_i: the group is in the word's upper half
     // engine
@@ -114,11 +122,12 @@ module dtof_pool_pair #(
 
   logic [WORD_WIDTH-1:0] word_q;
   logic [COLUMNS-1:0] detected_t1, may_have_t1, detected_t2, held_valid, upper_t2;
+  logic [COLUMNS-1:0] first_row_comes, second_row_comes;
   logic [COLUMNS*COARSE_WIDTH-1:0] held_bin;
 
   // Coarse.
 
-  logic counts_first, counts;
+  logic counts_first, counts, bins_waiting, bins_want, may_count_q;
   logic [1:0] bins_write;
   logic [WORD_WIDTH-1:0] counted_word;
 
@@ -133,6 +142,10 @@ module dtof_pool_pair #(
       .keep_first_i(keep_first_i),
       .keep_last_i (keep_last_i),
       .load_i      (load_i),
+      .wanted_i    (wanted_i),
+      .may_count_i (may_count_q),
+      .waiting_o   (bins_waiting),
+      .wants_o     (bins_want),
       .part_i      (part_i),
       .sweep_i     (sweep_i),
       .make_room_i (make_room_i),
@@ -145,7 +158,7 @@ module dtof_pool_pair #(
 
   // The word register and the candidates of its group. A word has four pixels: column c of row r is pixel 2 c + r.
 
-  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load;
+  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q, word_load;
   logic [1:0] replaces, replaced_q;  // halves that the engine replaces or clears
   logic [2:0] changed_q;  // pixels of the word register that have changed
   logic [CELLS_WIDTH-1:0] cells_q;
@@ -158,12 +171,13 @@ module dtof_pool_pair #(
   logic [1:0] visit_t1, visit_q;  // [r]: row r of a word is complete
   logic second_row_t1_q, visit_t2;
 
-  assign word_load = engine_load_i || word_load_q || load_i;
+  assign word_load = engine_load_i || word_load_i || (load_i && wanted_i);
 
   always_ff @(posedge clk_i) begin
-    ahead_q <= word_load_d_i;
-    word_load_q <= ahead_q;
-    changed_q <= takes_pixel[2:0] | (changed_q & {3{!word_load_q}});
+    if (read_i) begin
+      may_count_q <= !optional_i || wants_o;
+    end
+    changed_q <= takes_pixel[2:0] | (changed_q & {3{!due_i}});
     if (group_load_i) begin
       cells_q <= group_upper_i ? read_data_i[HALF_WIDTH+:CELLS_WIDTH] : read_data_i[CELLS_WIDTH-1:0];
       bright_q <= (group_upper_i ? read_data_i[HALF_WIDTH+BRIGHT_FIRST+:dtof_pkg::POOL_THINNED_BITS]
@@ -234,7 +248,7 @@ module dtof_pool_pair #(
   assign turn_hits = (hits_t3_q & {LABELS{second_column_turn}}) | (hits_t2[LABELS-1:0] & {LABELS{first_column_turn}});
 
   always_ff @(posedge clk_i) begin
-    if (ahead_q) begin
+    if (first_load_i) begin
       first_pixel_q <= read_data_i[PIXEL_WIDTH-1:0];
     end
   end
@@ -265,11 +279,11 @@ module dtof_pool_pair #(
       assign first_asks = leans && !visit_t2 && may_have_t1[0];
       assign second_asks = leans && COLUMNS > 1 && detected_t2[LAST];
       assign asks = {visit_q & {2{second_asks}}, {second_row_t1_q, !second_row_t1_q} & {2{first_asks}}};
-      assign leader = (read_data_i[LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[0] && ahead_q}})
-          | (first_pixel_q[LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[0] && !ahead_q}})
+      assign leader = (read_data_i[LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[0] && first_load_i}})
+          | (first_pixel_q[LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[0] && !first_load_i}})
           | (word_q[PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[1]}})
-          | (read_data_i[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[2] && word_load_q}})
-          | (word_q[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[2] && !word_load_q}})
+          | (read_data_i[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[2] && word_load_i}})
+          | (word_q[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[2] && !word_load_i}})
           | (word_q[HALF_WIDTH+PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[3]}});
       always_ff @(posedge clk_i) begin
         if (leans && turn_d != '0) begin
@@ -340,7 +354,7 @@ module dtof_pool_pair #(
         localparam int CELL_FIRST = POINTER_WIDTH - CELL_WIDTH;
         logic [CELL_WIDTH-1:0] pointer_cell, first_row_cell;
         logic compares, is_read;
-        assign is_read = ahead_q || (c == 1 && word_load_q);
+        assign is_read = first_load_i || (c == 1 && word_load_i);
         // Thinned: in an early eighth of the range, for the level of this acquisition. In the track phase only in bright groups.
         assign thinned_t2[c] = (point_i || bright_q) && thinning_t2_i < ~used_t2[c*NP+NP-1-:dtof_pkg::POOL_THINNING_WIDTH];
         assign first_row_cell = (c == 0) ? first_pixel_q[CELL_FIRST+:CELL_WIDTH] : word_q[HALF_WIDTH+CELL_FIRST+:CELL_WIDTH];
@@ -373,6 +387,7 @@ module dtof_pool_pair #(
             .compares_t1_o    (compares),
             .detected_t1_o    (detected_t1[c]),
             .may_have_t1_o    (may_have_t1[c]),
+            .comes_o          ({second_row_comes[c], first_row_comes[c]}),
             .detected_t2_o    (detected_t2[c]),
             .used_t2_o        (used_t2[c*NP+:NP]),
             .hits_t2_o        (hits_t2[c*LABELS+:LABELS]),
@@ -403,7 +418,14 @@ module dtof_pool_pair #(
     end
   endgenerate
 
-  assign upper_t2_o = (upper_t2 != '0);
+  // Which words this pair needs.
+
+  logic first_part_wanted, next_part_wanted;
+  // The first of two parts is read at T1 of the second row, the first of four at T2.
+  assign first_part_wanted = held_valid != '0 || ((PART_WIDTH == 1) ? may_have_t1 != '0 : bins_waiting || detected_t2 != '0);
+  assign next_part_wanted = (PART_WIDTH == 1) ? upper_t2 != '0 : bins_want;
+  assign wants_o = coarse_i ? (late_i ? next_part_wanted : first_part_wanted)
+      : (late_i ? second_row_comes != '0 : first_row_comes != '0);
 
   // Only pixels are written that have changed. In the coarse phase, and for the engine, both pixels of a half are written.
   assign write_o = engine_i ? {{2{replaced_q[1]}}, {2{replaced_q[0]}}} : coarse_i ? {{2{bins_write[1]}}, {2{bins_write[0]}}}

@@ -7,14 +7,14 @@
 // with the stored bit.
 //
 // A write of an address concerns only the SRAMs that were written. The bits of all other SRAMs keep their values, which this module has from
-// the last read of the same address: it keeps the last three reads. A write for which no SRAM is missing, such as a clear, needs no
+// the last read of the same address: it keeps the last three reads of different addresses. A write for which no SRAM is missing, such as a clear, needs no
 // read before it.
 //   clock (T: access of the SRAMs)   T+3          T+4              T+5          T+6
 //   read                             registered   memory read      compared     error_o; kept for writes
 //   write                            registered   memory written
 // With WAY_CLOCKS > 0 all of this comes as many clocks later.
 // Latency: POOL_PARITY_CLOCKS + WAY_CLOCKS + 3 from an access to error_o.
-// Cost: a single-port SRAM of DEPTH words and a bit for each SRAM; seven flip-flops for each SRAM, three comparators of addresses.
+// Cost: a single-port SRAM of DEPTH words and a bit for each SRAM; seven flip-flops for each SRAM, four comparators of addresses.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -79,7 +79,7 @@ module dtof_pool_parity_store #(
   logic [KEPT-1:0] known_q, same;  // a kept read is known until a write of its address
   logic [ADDR_WIDTH-1:0] read_address_q;
   logic [SRAMS-1:0] stored, others, written;
-  logic compares_q;
+  logic compares_q, keeps;
   integer k;
 
   always_comb begin
@@ -92,6 +92,9 @@ module dtof_pool_parity_store #(
 
   assign written = (parities_q & accessed_q) | (others & ~accessed_q);
 
+  // Some SRAMs read an address one clock later than the others (dtof_pair_sequencer).
+  assign keeps = compares_q && !(known_q[0] && kept_addresses_q[ADDR_WIDTH-1:0] == read_address_q);
+
   logic [KEPT-1:0] still_known;
   assign still_known = known_q & ~(same & {KEPT{read || write}});
 
@@ -99,7 +102,7 @@ module dtof_pool_parity_store #(
     if (!rst_ni) begin
       known_q <= '0;
     end else begin
-      known_q <= compares_q ? {still_known[KEPT-2:0], 1'b1} : still_known;
+      known_q <= keeps ? {still_known[KEPT-2:0], 1'b1} : still_known;
     end
   end
 
@@ -107,7 +110,7 @@ module dtof_pool_parity_store #(
     if (read) begin
       read_address_q <= address;
     end
-    if (compares_q) begin
+    if (keeps) begin
       kept_q <= {kept_q[(KEPT-1)*SRAMS-1:0], stored};
       kept_addresses_q <= {kept_addresses_q[(KEPT-1)*ADDR_WIDTH-1:0], read_address_q};
     end

@@ -305,6 +305,8 @@ module dtof_pool_pointer_array #(
           .parity_o        (quad_parities[q]),
           .timestamp_i     (tdc_timestamp_i[2*FIRST*NP+:QUAD_COLUMNS*NP]),
           .read_i          (received.read),
+          .optional_i      (received.optional),
+          .late_i          (received.late),
           .write_i         (received.write),
           .address_i       (received.address),
           .gate_begin_i    (received.gate_begin),

@@ -5,6 +5,7 @@
 // An engine selects one pair and replaces a half of its part; the rest of the word stays as it is. Of a word only those parts are written
 // in which a pixel has changed, so that a macro with a write mask takes less power. The two pairs
 // may belong to two engines. These never select both pairs in a clock, because all engines work on the pair with the same number.
+// A read that only columns with detections need (optional_i) is suppressed if no column has a detection, and the pairs then do not load.
 // With PARITY = 1 dtof_pool_word_parity gives the parity of each word that is read or written; dtof_pool_parity_store keeps and checks it.
 // Latency: 1 clock from read_i to the pair's read_data_i; POOL_PARITY_CLOCKS to accessed_o and parity_o.
 // Cost at the defaults: see reports/area.md.
@@ -52,6 +53,9 @@ module dtof_pool_quad #(
     input  logic [      COLUMNS*NP-1:0] timestamp_i,
     // SRAM
     input  logic                        read_i,
+    input  logic                        optional_i,   // with read_i: only columns with detections need the word
+    input  logic                        late_i,       // with optional_i: coarse, the part is not the first; otherwise, the read is for the second row, and
+                                                      // the same address was read one clock before if the first row has a detection
     input  logic                        write_i,
     input  logic [      ADDR_WIDTH-1:0] address_i,
     // to dtof_pool_parity_store, POOL_PARITY_CLOCKS after an access of the SRAM
@@ -75,7 +79,7 @@ module dtof_pool_quad #(
     input  logic                        keep_last_i,
     input  logic                        load_i,
     input  logic [      PART_WIDTH-1:0] part_i,
-    input  logic                        sweep_i,      // with load_i of the first part: this visit is a sweep; make_room_i: the group's second visit in a sweep
+    input  logic                        sweep_i,      // from load_i of the first part: this visit is a sweep; make_room_i: the group's second visit in a sweep
     input  logic                        make_room_i,
     input  logic                        word_load_d_i,
     input  logic                        group_load_i,
@@ -102,10 +106,14 @@ module dtof_pool_quad #(
 
   logic [4*PAIRS-1:0] writes;
   logic [PARTS-1:0] part_writes;
-  logic [PAIRS-1:0] upper_t2;
-  logic read, write, engine_load_q, nothing_upper, sweep_q, make_room_q;
+  logic [PAIRS-1:0] wants;
+  logic wanted, read, write, engine_load_q, sweep_q, make_room_q;
+  // Of the word that was read in the last clock: it was wanted; it is a pixel word and was wanted for its first row; it is due in the
+  // pairs' registers in the next clock, and in this clock, whether it was wanted or not.
+  logic wanted_q, first_load_q, word_load_q, due_next_q, due_q;
 
-  assign read = read_i && (!engine_i || select_i != '0) && !nothing_upper;
+  assign wanted = !optional_i || wants != '0;
+  assign read = read_i && (!engine_i || select_i != '0) && wanted && !(late_i && first_load_q);
   assign write = write_i && writes != '0;
 
   dtof_sram #(
@@ -148,12 +156,13 @@ module dtof_pool_quad #(
     end
   endgenerate
 
-  // The second of two parts is read at T2 of a second row. If no choice falls into it, the read is suppressed, and the pair loads the
-  // SRAM's unchanged output again. A sweep reads both parts.
-  assign nothing_upper = (PART_WIDTH == 1) && second_row_t2_i && upper_t2 == '0 && !sweep_i;
-
   // Held in stream phases, which begin long after the engine's last read.
   always_ff @(posedge clk_i) begin
+    wanted_q <= wanted;
+    first_load_q <= word_load_d_i && wanted;
+    word_load_q <= first_load_q || (late_i && wanted && !coarse_i);
+    due_next_q <= word_load_d_i;
+    due_q <= due_next_q;
     sweep_q <= sweep_i;
     make_room_q <= make_room_i;
     if (engine_i) begin
@@ -205,17 +214,22 @@ module dtof_pool_quad #(
           .thinning_t2_i   (thinning_t2_i),
           .keep_first_i    (keep_first_i),
           .keep_last_i     (keep_last_i),
+          .optional_i      (optional_i),
+          .late_i          (late_i),
           .load_i          (load_i),
+          .wanted_i        (wanted_q),
           .part_i          (part_i),
           .sweep_i         (sweep_q),
           .make_room_i     (make_room_q),
           .read_i          (read_i),
           .engine_load_i   (engine_load_q),
           .read_data_i     (read_data[p*WORD_WIDTH+:WORD_WIDTH]),
-          .upper_t2_o      (upper_t2[p]),
+          .wants_o         (wants[p]),
           .write_o         (writes[4*p+:4]),
           .write_data_o    (write_data[p*WORD_WIDTH+:WORD_WIDTH]),
-          .word_load_d_i   (word_load_d_i),
+          .first_load_i    (first_load_q),
+          .word_load_i     (word_load_q),
+          .due_i           (due_q),
           .group_load_i    (group_load_i),
           .group_upper_i   (group_upper_i),
           .engine_i        (engine_i),
