@@ -43,10 +43,10 @@ module dtof_pool_bins #(
     input  logic                            keep_last_i,   // four parts: register the choices of the last two rows
     // the part
     input  logic                            load_i,        // word_i has the part in the next clock; with four parts for two clocks
-    input  logic                            wanted_i,      // with load_i: the part was read, because a choice of one of the two pairs may fall into it
+    input  logic                            needed_i,      // with load_i: the part was read, because a choice of one of the two pairs may fall into it
     input  logic                            may_count_i,   // four parts, one clock after load_i: a choice of this pair may fall into the part, or it is a sweep
     output logic                            waiting_o,     // four parts: the choices of the first two of four rows have a detection
-    output logic                            wants_o,       // four parts: a choice falls into the part after part_i
+    output logic                            needs_o,       // four parts: a choice falls into the part after part_i
     input  logic [          PART_WIDTH-1:0] part_i,        // with load_i: number of the part
     input  logic                            sweep_i,       // while parts would count: nothing counts, and the bins are checked
     input  logic                            make_room_i,   // with sweep_i: the group's second visit; low in the other phases
@@ -77,7 +77,7 @@ module dtof_pool_bins #(
   assign counts_in_half = {(counts_here & upper) != '0, (counts_here & ~upper) != '0};
 
   always_ff @(posedge clk_i) begin
-    count_q <= load_i && wanted_i;
+    count_q <= load_i && needed_i;
     if (load_i) begin
       part_q <= part_i;
     end
@@ -122,7 +122,7 @@ module dtof_pool_bins #(
       assign first_o = 1'b0;
       assign counted_before = '0;
       assign waiting_o = 1'b0;
-      assign wants_o = 1'b0;
+      assign needs_o = 1'b0;
       logic unused_keep;
       assign unused_keep = ^{keep_first_i, keep_last_i, may_count_i};
     end else begin : g_four_parts
@@ -131,7 +131,7 @@ module dtof_pool_bins #(
       logic count_last_q;
       logic [1:0] counted_q;
       logic [PART_WIDTH-1:0] next_part;
-      logic [3:0] wanted;
+      logic [3:0] needed;
       assign counted = count_last_q ? last_q : first_q;
       assign first_o = count_q && may_count_i;
       assign counted_before = counted_q & {2{count_last_q}};
@@ -150,14 +150,14 @@ module dtof_pool_bins #(
       end
       assign next_part = part_q + 1'b1;
       assign waiting_o = waiting_q[0] || waiting_q[CHOICE_WIDTH];
-      assign wants_o = wanted != '0;
-      for (d = 0; d < 4; d = d + 1) begin : g_wanted
+      assign needs_o = needed != '0;
+      for (d = 0; d < 4; d = d + 1) begin : g_needed
         localparam int FIRST = (d % 2) * CHOICE_WIDTH;
         logic valid;
         logic [PART_WIDTH-1:0] part;
         assign valid = (d < 2) ? first_q[FIRST] : last_q[FIRST];
         assign part = (d < 2) ? first_q[FIRST+CHOICE_WIDTH-1-:PART_WIDTH] : last_q[FIRST+CHOICE_WIDTH-1-:PART_WIDTH];
-        assign wanted[d] = valid && part == next_part;
+        assign needed[d] = valid && part == next_part;
       end
       for (d = 0; d < 2; d = d + 1) begin : g_choice
         logic valid;

@@ -6,9 +6,9 @@
 // All pairs access the same address in a clock. In the coarse phase a column chooses one timestamp of every two rows, and dtof_pool_bins,
 // which has the schedule, adds the choices of both columns to the parts of the group's bins.
 //
-// A read may be optional: wants_o is high if a column of this pair has a detection that needs the word. A part of a group's bins is
-// wanted if a choice falls into it; the first part is read before the choices are known, so any detection wants it. A word of pixels is
-// wanted for its first row, or one clock later for its second row.
+// A read may be optional: needs_o is high if a column of this pair has a detection that needs the word. A part of a group's bins is
+// needed if a choice falls into it; the first part is read before the choices are known, so any detection needs it. A word of pixels is
+// needed for its first row, or one clock later for its second row.
 //
 // In the other phases one dtof_pool_pixel_update computes the new words of a row's two pixels, one after the other:
 //   clock (T0: last slot of a row)   T2               T3                  T4
@@ -78,10 +78,10 @@ module dtof_pool_pair #(
     input  logic                  keep_last_i,       // four parts: register the choices of the last two rows
     input  logic                  optional_i,        // with read_i: columns without detections do not need the word
     input  logic                  late_i,            // with optional_i: coarse, the part is not the first; otherwise, the read is for the second row
-    output logic                  wants_o,           // with optional_i: this pair needs the word
+    output logic                  needs_o,           // with optional_i: this pair needs the word
     input  logic                  load_i,            // one clock after read_i. One clock after load_i the last two rows count; with four parts first the
                                                      // first two rows, and then the last two
-    input  logic                  wanted_i,          // with load_i: the part was read
+    input  logic                  needed_i,          // with load_i: the part was read
     input  logic [PART_WIDTH-1:0] part_i,            // with load_i: number of the part
     input  logic                  sweep_i,           // while parts would count: nothing counts, and the pair checks the bins
     input  logic                  make_room_i,       // with sweep_i: the group's second visit; low in the other phases
@@ -127,7 +127,7 @@ module dtof_pool_pair #(
 
   // Coarse.
 
-  logic counts_first, counts, bins_waiting, bins_want, may_count_q;
+  logic counts_first, counts, bins_waiting, bins_need, may_count_q;
   logic [1:0] bins_write;
   logic [WORD_WIDTH-1:0] counted_word;
 
@@ -142,10 +142,10 @@ module dtof_pool_pair #(
       .keep_first_i(keep_first_i),
       .keep_last_i (keep_last_i),
       .load_i      (load_i),
-      .wanted_i    (wanted_i),
+      .needed_i    (needed_i),
       .may_count_i (may_count_q),
       .waiting_o   (bins_waiting),
-      .wants_o     (bins_want),
+      .needs_o     (bins_need),
       .part_i      (part_i),
       .sweep_i     (sweep_i),
       .make_room_i (make_room_i),
@@ -171,11 +171,11 @@ module dtof_pool_pair #(
   logic [1:0] visit_t1, visit_q;  // [r]: row r of a word is complete
   logic second_row_t1_q, visit_t2;
 
-  assign word_load = engine_load_i || word_load_i || (load_i && wanted_i);
+  assign word_load = engine_load_i || word_load_i || (load_i && needed_i);
 
   always_ff @(posedge clk_i) begin
     if (read_i) begin
-      may_count_q <= !optional_i || wants_o;
+      may_count_q <= !optional_i || needs_o;
     end
     changed_q <= takes_pixel[2:0] | (changed_q & {3{!due_i}});
     if (group_load_i) begin
@@ -420,11 +420,11 @@ module dtof_pool_pair #(
 
   // Which words this pair needs.
 
-  logic first_part_wanted, next_part_wanted;
+  logic first_part_needed, next_part_needed;
   // The first of two parts is read at T1 of the second row, the first of four at T2.
-  assign first_part_wanted = held_valid != '0 || ((PART_WIDTH == 1) ? may_have_t1 != '0 : bins_waiting || detected_t2 != '0);
-  assign next_part_wanted = (PART_WIDTH == 1) ? upper_t2 != '0 : bins_want;
-  assign wants_o = coarse_i ? (late_i ? next_part_wanted : first_part_wanted)
+  assign first_part_needed = held_valid != '0 || ((PART_WIDTH == 1) ? may_have_t1 != '0 : bins_waiting || detected_t2 != '0);
+  assign next_part_needed = (PART_WIDTH == 1) ? upper_t2 != '0 : bins_need;
+  assign needs_o = coarse_i ? (late_i ? next_part_needed : first_part_needed)
       : (late_i ? second_row_comes != '0 : first_row_comes != '0);
 
   // Only pixels are written that have changed. In the coarse phase, and for the engine, both pixels of a half are written.

@@ -106,14 +106,15 @@ module dtof_pool_quad #(
 
   logic [4*PAIRS-1:0] writes;
   logic [PARTS-1:0] part_writes;
-  logic [PAIRS-1:0] wants;
-  logic wanted, read, write, engine_load_q, sweep_q, make_room_q;
-  // Of the word that was read in the last clock: it was wanted; it is a pixel word and was wanted for its first row; it is due in the
-  // pairs' registers in the next clock, and in this clock, whether it was wanted or not.
-  logic wanted_q, first_load_q, word_load_q, due_next_q, due_q;
+  logic [PAIRS-1:0] needs;
+  logic needed, read, write, engine_load_q, sweep_q, make_room_q;
+  logic needed_q;      // a read of the last clock was needed
+  logic first_load_q;  // the last clock read a word of pixels, because its first row needs the word
+  logic word_load_q;   // the pairs load the word
+  logic due_next_q, due_q;  // the pairs would load the word in the next clock, and in this clock, if it were needed
 
-  assign wanted = !optional_i || wants != '0;
-  assign read = read_i && (!engine_i || select_i != '0) && wanted && !(late_i && first_load_q);
+  assign needed = !optional_i || needs != '0;
+  assign read = read_i && (!engine_i || select_i != '0) && needed && !(late_i && first_load_q);
   assign write = write_i && writes != '0;
 
   dtof_sram #(
@@ -158,9 +159,9 @@ module dtof_pool_quad #(
 
   // Held in stream phases, which begin long after the engine's last read.
   always_ff @(posedge clk_i) begin
-    wanted_q <= wanted;
-    first_load_q <= word_load_d_i && wanted;
-    word_load_q <= first_load_q || (late_i && wanted && !coarse_i);
+    needed_q <= needed;
+    first_load_q <= word_load_d_i && needed;
+    word_load_q <= first_load_q || (late_i && needed && !coarse_i);
     due_next_q <= word_load_d_i;
     due_q <= due_next_q;
     sweep_q <= sweep_i;
@@ -217,14 +218,14 @@ module dtof_pool_quad #(
           .optional_i      (optional_i),
           .late_i          (late_i),
           .load_i          (load_i),
-          .wanted_i        (wanted_q),
+          .needed_i        (needed_q),
           .part_i          (part_i),
           .sweep_i         (sweep_q),
           .make_room_i     (make_room_q),
           .read_i          (read_i),
           .engine_load_i   (engine_load_q),
           .read_data_i     (read_data[p*WORD_WIDTH+:WORD_WIDTH]),
-          .wants_o         (wants[p]),
+          .needs_o         (needs[p]),
           .write_o         (writes[4*p+:4]),
           .write_data_o    (write_data[p*WORD_WIDTH+:WORD_WIDTH]),
           .first_load_i    (first_load_q),
