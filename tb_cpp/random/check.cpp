@@ -26,6 +26,7 @@ RtlRunOptions disturbed(CounterRandom& random, std::uint32_t acquisitions) {
   options.reset_first = random() % 3 == 0;
   if (random() % 2 == 0) {
     options.pause_probability = 0.5 * random.uniform();
+    options.empty_slot_probability = 0.5 * random.uniform();
     options.stall_probability = 0.8 * random.uniform();
     options.start_probability = 0.2 * random.uniform();
   }

@@ -218,7 +218,8 @@ class RtlReadout::Simulation {
 
   // False if the frame was cut off by the reset.
   bool run_frame(std::optional<std::uint64_t> reset_at) {
-    driver_->rewind(options_->pause_probability, control_random(options_->seed, ControlStream::kPause));
+    driver_->rewind(options_->pause_probability, options_->empty_slot_probability,
+                    control_random(options_->seed, ControlStream::kPause));
     CounterRandom random = control_random(options_->seed, ControlStream::kClock);
     beats_ = 0;
     held_clocks_ = 0;

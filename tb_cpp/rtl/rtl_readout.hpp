@@ -40,6 +40,9 @@ struct RtlRunOptions {
   std::uint64_t seed = 1;  ///< seed of everything random below
   /// Probability that the source pauses (1 to 8 clocks) before an acquisition.
   double pause_probability = 0.0;
+  /// Probability that a pixel with fewer than SLOTS detections in an acquisition leaves its first slots empty
+  /// instead of its last ones.
+  double empty_slot_probability = 0.0;
   double stall_probability = 0.0;  ///< probability per clock that tready is low
   /// Clocks that tready stays low at each row's first result. 2 c such clocks simulate c more columns. In a
   /// pool read-out, rows begin in each of an engine's turns, and c clocks simulate c more engines.

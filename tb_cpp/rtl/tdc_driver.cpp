@@ -24,6 +24,7 @@ constexpr std::ptrdiff_t kPrefetchDistance = 8;
 // Columns compared in one go: one byte each says whether the column has a detection.
 constexpr std::size_t kBlock = 8;
 constexpr int kNoDetectionByte = 0xFF;
+constexpr std::uint16_t kNoDetection = 0xFFFF;
 constexpr int kDetectionOfCode0Byte = 0x00;
 
 void check_row(std::span<const Detection> row, std::size_t column, std::size_t index,
@@ -86,8 +87,9 @@ TdcDriver::TdcDriver(const RtlConfiguration& configuration, const ArrayModel::Po
   stride_ = (columns.size() + kBlock - 1) / kBlock * kBlock;
 }
 
-void TdcDriver::rewind(double pause_probability, CounterRandom random) {
+void TdcDriver::rewind(double pause_probability, double empty_slot_probability, CounterRandom random) {
   pause_probability_ = pause_probability;
+  empty_slot_probability_ = empty_slot_probability;
   random_ = random;
   cursors_.resize(rows_ * stride_);
   next_acquisition_.assign(pixels_per_sram_ * stride_, kNever);
@@ -140,9 +142,22 @@ void TdcDriver::load_pixel() {
         slot += line_;
         ++cursor.next;
       } while (cursor.next != cursor.end && cursor.next->acquisition == acquisition_);
+      const auto detections = static_cast<std::size_t>(slot - &lines_[first + i]) / line_;
+      if (empty_slot_probability_ > 0.0 && detections < slots_ &&
+          random_.uniform() < empty_slot_probability_) {
+        move_to_last_slots(first + i, detections);
+      }
       next[i] = cursor.next != cursor.end ? cursor.next->acquisition : kNever;
       __builtin_prefetch(cursor.next + kPrefetchDistance);
     }
+  }
+}
+
+void TdcDriver::move_to_last_slots(std::size_t column, std::size_t detections) {
+  for (std::size_t slot = detections; slot-- > 0;) {
+    std::uint16_t& first = lines_[slot * line_ + column];
+    lines_[(slots_ - detections + slot) * line_ + column] = first;
+    first = kNoDetection;
   }
 }
 

@@ -23,8 +23,8 @@ class TdcDriver {
   TdcDriver(const RtlConfiguration& configuration, const ArrayModel::Ports& ports,
             std::span<const ColumnStream> columns, std::uint32_t acquisitions);
 
-  /// Returns to the frame's first timestamp.
-  void rewind(double pause_probability, CounterRandom random);
+  /// Returns to the frame's first timestamp. The probabilities are those of RtlRunOptions.
+  void rewind(double pause_probability, double empty_slot_probability, CounterRandom random);
   /// Drives this clock's timestamps.
   void drive();
   /// Ends the clock. Throws RtlError if the array takes more acquisitions than exist.
@@ -44,6 +44,8 @@ class TdcDriver {
   };
 
   void load_pixel();
+  /// Moves the pixel's detections in this column from the first slots to the last ones.
+  void move_to_last_slots(std::size_t column, std::size_t detections);
   void fill_bus(int byte);
   void maybe_pause();
 
@@ -61,6 +63,7 @@ class TdcDriver {
   std::size_t line_;                             // 16-bit words on the bus
 
   double pause_probability_ = 0.0;
+  double empty_slot_probability_ = 0.0;
   CounterRandom random_{0, 0, 0, 0};
   std::uint32_t pause_left_ = 0;
   std::uint32_t begun_ = 0;

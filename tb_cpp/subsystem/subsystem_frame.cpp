@@ -73,7 +73,7 @@ class SubsystemFrame {
     tdc.timestamps = timestamps_.data();
     tdc.timestamp_words = timestamps_.size();
     TdcDriver driver(configuration_, tdc, columns, acquisitions);
-    driver.rewind(0.0, CounterRandom(1, static_cast<std::uint32_t>(RandomPurpose::kTestControl), 0, 1));
+    driver.rewind(0.0, 0.0, CounterRandom(1, static_cast<std::uint32_t>(RandomPurpose::kTestControl), 0, 1));
     driver_ = &driver;
     acquisition_lines_ = device.acquisition_lines;
     lines_left_ = std::uint64_t{acquisitions} * acquisition_lines_;

@@ -53,6 +53,7 @@ TEST_P(EveryConfiguration, AgreesWithModelWhateverSourceAndSinkDo) {
     SCOPED_TRACE(testing::Message() << acquisitions << " acquisitions");
     RtlRunOptions options = default_options(random.bits64());
     options.pause_probability = random.uniform();
+    options.empty_slot_probability = random.uniform();
     options.stall_probability = 0.9 * random.uniform();
     options.start_probability = random.uniform();
     options.reset_first = acquisitions % 2 == 0;

@@ -158,6 +158,7 @@ TEST_P(PoolPointerPrior, AgreesWithModelWhateverSourceAndSinkDo) {
   for (int number = 0; number < 12; ++number) {
     options = default_options(random.bits64());
     options.pause_probability = random.uniform();
+    options.empty_slot_probability = random.uniform();
     options.stall_probability = 0.9 * random.uniform();
     options.start_probability = random.uniform();
     options.reset_first = number == 0;
