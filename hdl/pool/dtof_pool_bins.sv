@@ -21,7 +21,7 @@
 //
 // Latency: none from word_i to word_o; 1 clock from load_i to the first two rows' counts (with two parts: the counts).
 // Cost: for each bin of a word an incrementer by one or two and two comparators; four flip-flops. With four parts also registers for six
-// choices, and three flip-flops.
+// choices, four comparators of a part, and three flip-flops.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -46,7 +46,7 @@ module dtof_pool_bins #(
     input  logic                            needed_i,      // with load_i: the part was read, because a choice of one of the two pairs may fall into it
     input  logic                            may_count_i,   // four parts, one clock after load_i: a choice of this pair may fall into the part, or it is a sweep
     output logic                            waiting_o,     // four parts: the choices of the first two of four rows have a detection
-    output logic                            needs_o,       // four parts: a choice falls into the part after part_i
+    output logic                            needs_o,       // four parts: a choice falls into the part after the one that was loaded last
     input  logic [          PART_WIDTH-1:0] part_i,        // with load_i: number of the part
     input  logic                            sweep_i,       // while parts would count: nothing counts, and the bins are checked
     input  logic                            make_room_i,   // with sweep_i: the group's second visit; low in the other phases

@@ -7,8 +7,8 @@
 // with the stored bit.
 //
 // A write of an address concerns only the SRAMs that were written. The bits of all other SRAMs keep their values, which this module has from
-// the last read of the same address: it keeps the last three reads of different addresses. A write for which no SRAM is missing, such as a clear, needs no
-// read before it.
+// the last read of the same address: it keeps the last three reads of different addresses. A write for which no SRAM is missing, such as
+// a clear, needs no read before it.
 //   clock (T: access of the SRAMs)   T+3          T+4              T+5          T+6
 //   read                             registered   memory read      compared     error_o; kept for writes
 //   write                            registered   memory written

@@ -5,7 +5,9 @@
 // An engine selects one pair and replaces a half of its part; the rest of the word stays as it is. Of a word only those parts are written
 // in which a pixel has changed, so that a macro with a write mask takes less power. The two pairs
 // may belong to two engines. These never select both pairs in a clock, because all engines work on the pair with the same number.
-// A read that only columns with detections need (optional_i) is suppressed if no column has a detection, and the pairs then do not load.
+//
+// A read that only columns with detections need (optional_i) is suppressed if no column has such a detection, and the pairs do not load.
+// If one pair needs the word, both load it, because a macro may ignore the write mask.
 // With PARITY = 1 dtof_pool_word_parity gives the parity of each word that is read or written; dtof_pool_parity_store keeps and checks it.
 // Latency: 1 clock from read_i to the pair's read_data_i; POOL_PARITY_CLOCKS to accessed_o and parity_o.
 // Cost at the defaults: see reports/area.md.
@@ -111,7 +113,7 @@ module dtof_pool_quad #(
   logic needed_q;      // a read of the last clock was needed
   logic first_load_q;  // the last clock read a word of pixels, because its first row needs the word
   logic word_load_q;   // the pairs load the word
-  logic due_next_q, due_q;  // the pairs would load the word in the next clock, and in this clock, if it were needed
+  logic due_next_q, due_q;  // the time to load a word is the next clock, and this clock, whether the word is needed or not
 
   assign needed = !optional_i || needs != '0;
   assign read = read_i && (!engine_i || select_i != '0) && needed && !(late_i && first_load_q);

@@ -142,10 +142,8 @@ void TdcDriver::load_pixel() {
         slot += line_;
         ++cursor.next;
       } while (cursor.next != cursor.end && cursor.next->acquisition == acquisition_);
-      const auto detections = static_cast<std::size_t>(slot - &lines_[first + i]) / line_;
-      if (empty_slot_probability_ > 0.0 && detections < slots_ &&
-          random_.uniform() < empty_slot_probability_) {
-        move_to_last_slots(first + i, detections);
+      if (empty_slot_probability_ > 0.0 && random_.uniform() < empty_slot_probability_) {
+        move_to_last_slots(first + i, static_cast<std::size_t>(slot - &lines_[first + i]) / line_);
       }
       next[i] = cursor.next != cursor.end ? cursor.next->acquisition : kNever;
       __builtin_prefetch(cursor.next + kPrefetchDistance);
@@ -154,6 +152,9 @@ void TdcDriver::load_pixel() {
 }
 
 void TdcDriver::move_to_last_slots(std::size_t column, std::size_t detections) {
+  if (detections == slots_) {
+    return;
+  }
   for (std::size_t slot = detections; slot-- > 0;) {
     std::uint16_t& first = lines_[slot * line_ + column];
     lines_[(slots_ - detections + slot) * line_ + column] = first;
