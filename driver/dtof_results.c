@@ -131,10 +131,10 @@ static dtof_status unpack_in_order(const dtof_device *device, const uint64_t *wo
     for (size_t k = 0; status == DTOF_OK && k < words_of_a_pixel; ++k) {
       bool second = false;
       status = take_word(words, words_of_a_pixel * i + k, &second, &result);
-      status = second == (k == 1U) ? status : DTOF_STREAM;
+      status = status == DTOF_OK && second != (k == 1U) ? DTOF_STREAM : status;
     }
     if (status != DTOF_OK) {
-      return DTOF_STREAM;
+      return status;
     }
     results[(size_t)result.row * device->columns + result.column] = result;
   }

@@ -7,7 +7,7 @@ set -euo pipefail
 seconds=${FUZZ_SECONDS:-600}
 folder=build/fuzz
 mkdir -p "$folder/findings"
-cmake -S . -B "$folder/cpp" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DDTOF_FUZZ=ON -DCMAKE_CXX_FLAGS_RELEASE=-O1 > "$folder/cmake.log" 2>&1 \
+cmake -S . -B "$folder/cpp" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DDTOF_FUZZ=ON -DCMAKE_CXX_FLAGS_RELEASE=-O1 > "$folder/cmake.log" 2>&1 \
   || { cat "$folder/cmake.log"; exit 1; }
 
 targets=("$@")

@@ -195,10 +195,13 @@ TEST(DriverAlone, ReportsAnAbortedFrame) {
   dtof_device device{};
   ASSERT_EQ(dtof_probe(&device, {&memory, memory_read, memory_write}), DTOF_OK);  // 2 columns of 3 rows
   const std::vector<std::uint64_t> words = {0, 1, DTOF_RESULT_ABORTED_MASK};
+  const std::vector<std::uint64_t> and_next = {0, DTOF_RESULT_ABORTED_MASK, 0, 0, 0, 0};
   std::vector<dtof_result> results(6);
   EXPECT_EQ(dtof_unpack(&device, words[2], results.data()), DTOF_ABORTED);
   EXPECT_EQ(dtof_unpack_frame(&device, words.data(), words.size(), results.data()), DTOF_ABORTED);
   EXPECT_EQ(dtof_unpack_frame(&device, words.data(), 2, results.data()), DTOF_STREAM);
+  EXPECT_EQ(dtof_unpack_frame(&device, and_next.data(), and_next.size(), results.data()), DTOF_ABORTED)
+      << "words of the next frame after it";
 }
 
 TEST(DriverAlone, ReportsAnIncompleteFrame) {
@@ -297,6 +300,8 @@ TEST(DriverAlone, TakesShortFramesThatAreWhole) {
   EXPECT_EQ(unpack({result(10) | result(11) << 32U, result(12) | second}), DTOF_STREAM);
   EXPECT_EQ(unpack({result(10) | result(11) << 32U, aborted}), DTOF_ABORTED);
   EXPECT_EQ(unpack({result(10) | aborted << 32U}), DTOF_ABORTED);
+  EXPECT_EQ(unpack({result(10) | aborted << 32U, result(12)}), DTOF_ABORTED)
+      << "a word of the next frame after it";
   ASSERT_EQ(unpack({result(10) | (second | result(20)) << 32U, result(11) | (second | result(21)) << 32U,
                     result(12) | (second | result(22)) << 32U}),
             DTOF_OK);
@@ -339,6 +344,8 @@ TEST(DriverAlone, TakesAmplitudesOfWholeFrames) {
   EXPECT_EQ(unpack({words[0], words[1]}), DTOF_STREAM) << "not whole";
   EXPECT_EQ(unpack({}), DTOF_STREAM);
   EXPECT_EQ(unpack({words[0], DTOF_RESULT_ABORTED_MASK}), DTOF_ABORTED);
+  EXPECT_EQ(unpack({words[0], DTOF_RESULT_ABORTED_MASK, words[0]}), DTOF_ABORTED)
+      << "a word of the next frame after it";
   EXPECT_EQ(unpack({words[0], words[1], words[2] | DTOF_RESULT_RAW_MASK}), DTOF_STREAM) << "a raw word";
   EXPECT_EQ(unpack({words[0], words[1] | DTOF_RESULT_SECOND_MASK, words[2]}), DTOF_STREAM)
       << "a second target of one pixel";
