@@ -137,12 +137,14 @@ void SubsystemBench::run_transfer() {
 }
 
 BusResponse SubsystemBench::read(std::uint32_t offset) {
+  run_transfer();  // of a begin_write
   bus_.read(offset);
   run_transfer();
   return bus_.response();
 }
 
 BusResponse SubsystemBench::write(std::uint32_t offset, std::uint32_t data, std::uint8_t strobe) {
+  run_transfer();  // of a begin_write
   bus_.write(offset, data, strobe);
   if (offset == DTOF_SHOT_SEED) {
     shot_reference_.set_seed(data);  // valid in a clock of the transfer
