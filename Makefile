@@ -17,7 +17,7 @@
 # make fpga-check what a small subsystem takes on four FPGA families, by Yosys (scripts/fpga.mk)
 # make fpga       a demonstrator for an iCE40: bitstream, utilisation, its netlist simulated (scripts/fpga.mk)
 # make shuttle    a chip in IHP's open 130 nm process: netlist, timing in three corners, inputs of two layout flows (synth/shuttle.mk)
-# make random-configurations  N=30 arrays of drawn parameters beside their models (scripts/random.mk)
+# make random-configurations, random-subsystems  N=30 arrays, N=12 subsystems of drawn parameters beside their models (scripts/random.mk)
 # make example    a frame of dtof_subsystem in a small SystemVerilog bench (scripts/example.mk)
 # make bench      speed of RTL, models and photon model; SMALL=1: each once, on less work
 # make test-sanitize, make fuzz: the tests under sanitizers; readers and command line on damaged input (scripts/hostile.mk)

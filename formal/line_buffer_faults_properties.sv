@@ -40,7 +40,7 @@ module line_buffer_faults_properties #(
 
   logic [LEVEL_WIDTH-1:0] level;
   logic [LEVEL_WIDTH:0] lost_lines;
-  logic underrun, is_short, is_long, s_tready, line_valid, starved, kept, waits, dropped;
+  logic underrun, is_short, is_long, s_tready, line_valid, starved, kept, waits, dropped, early;
   logic [1:0] lost_acquisitions;
   logic [WIDTH-1:0] line;
 
@@ -63,6 +63,7 @@ module line_buffer_faults_properties #(
       .starved_o         (starved),
       .wait_o            (waits),
       .dropped_o         (dropped),
+      .early_o           (early),
       .kept_o            (kept),
       .underrun_o        (underrun),
       .short_o           (is_short),
@@ -84,6 +85,7 @@ module line_buffer_faults_properties #(
   logic [2:0] in_acquisition_q, out_acquisition_q;
   logic [3:0] in_line_q, out_line_q;
   logic live_q, lost_q, come_q, push, thrown, keep, in_last, step, out_last, at_watched, waits_q, drains_q, behind_q, timeout, starves;
+  logic rest_q;  // the source is delivering the rest of a long or a dropped acquisition
   logic [WIDTH-1:0] expected_q;
   logic [3:0] wait_q;  // clocks in which the memory is full and no line is offered
 
@@ -110,9 +112,11 @@ module line_buffer_faults_properties #(
       waits_q <= 1'b0;
       drains_q <= 1'b0;
       behind_q <= 1'b0;
+      rest_q <= 1'b0;
     end else begin
       live_q <= 1'b1;
       if (push) behind_q <= !s_tlast_i && (behind_q || in_last || dropped);
+      if (push) rest_q <= !s_tlast_i && (rest_q || (keep && in_last) || dropped);
       if (dropped) begin
         in_line_q <= '0;
         if (in_acquisition_q == watched_acquisition) come_q <= 1'b0;
@@ -141,6 +145,7 @@ module line_buffer_faults_properties #(
       wait_q <= (32'(level) >= LINES && !line_valid) ? wait_q + 1'b1 : '0;
       if (flush_i || abort_i || timeout) begin
         behind_q <= !flush_i && (push ? !s_tlast_i : behind_q || in_line_q != '0);
+        rest_q <= 1'b0;
         in_acquisition_q <= '0;
         out_acquisition_q <= '0;
         in_line_q <= '0;
@@ -157,8 +162,9 @@ module line_buffer_faults_properties #(
   end
 
   // With a source that cannot wait, an acquisition that does not fit the buffer is offered a clock before the buffer is full.
-  logic latest, offered_q;
-  assign latest = (SOURCE_WAITS == 0) && (LINES < ACQUISITION_LINES) && (32'(level) >= LINES - 1);
+  logic cannot_hold, latest, offered_q;
+  assign cannot_hold = (SOURCE_WAITS == 0) && (LINES < ACQUISITION_LINES);
+  assign latest = cannot_hold && (32'(level) >= LINES - 1);
   always_ff @(posedge clk_i) begin
     offered_q <= line_valid;
   end
@@ -195,6 +201,8 @@ module line_buffer_faults_properties #(
   `PROVE(a_starved, !rst_n || starved == starves)
   `PROVE(a_lost_acquisition, !rst_n || !(step && out_last && (lost_q || underrun || drains_q)) || lost_acquisitions != 2'(dropped))
   `PROVE(a_nothing_lost, !rst_n || lost_acquisitions == 2'(dropped) || (lost_acquisitions == 2'(dropped) + 1'b1 && step && out_last))
+  `PROVE(a_early_in_a_rest, !rst_n || !rest_q || early)
+  `PROVE(a_early, !rst_n || CLOCK_WAITS != 0 || early == (rest_q || (cannot_hold && (in_line_q != '0 || !starves))))
   `PROVE(a_goes_on, !rst_n || 32'(wait_q) <= ACQUISITION_LINES + 1)
   `GOAL(rst_n && step && at_watched && watched_acquisition == 3'd1 && !lost_q && !underrun
         && 32'(watched_line) == ACQUISITION_LINES - 1)

@@ -54,8 +54,10 @@ module dtof_line_buffer #(
     output logic                   wait_o,       // stops the array's clock: a line is late inside an acquisition
     output logic                   queued_o,     // the buffer has an acquisition that the array has not begun
     output logic                   inside_o,     // the source is inside an acquisition after this clock
-    output logic                   early_o,      // CLOCK_WAITS = 1: do not request the next acquisition yet: fewer than release_i lines of the
-                                                 // present one have come or, if release_i is a whole acquisition, the array does not wait
+    output logic                   early_o,      // do not request the next acquisition yet: the source delivers an ignored rest; CLOCK_WAITS = 1:
+                                                 // fewer than release_i lines of the present one have come or, if release_i is a whole acquisition,
+                                                 // the array does not wait; CLOCK_WAITS = 0 and SOURCE_WAITS = 0, and the buffer cannot hold an
+                                                 // acquisition: the source is inside one, or the array does not wait
     // each high for one clock
     output logic                   kept_o,       // a line was accepted and stored
     output logic                   arrives_o,    // the first line of an acquisition was accepted
@@ -90,8 +92,9 @@ module dtof_line_buffer #(
   `DTOF_REQUIRE(g_illegal_room, SOURCE_WAITS != 0 || REGISTERS != 0 || LINES >= 3,
                 "dtof_line_buffer: LINES of an SRAM must be at least 3 with SOURCE_WAITS = 0")
 
+  localparam int CANNOT_HOLD = (SOURCE_WAITS == 0 && LINES < ACQUISITION_LINES) ? 1 : 0;  // an acquisition neither waits nor fits
   // With so many lines an acquisition is offered at the latest. A buffer for a whole acquisition has its last line before it is full.
-  localparam int LATEST_RELEASE = (SOURCE_WAITS != 0 || LINES >= ACQUISITION_LINES) ? LINES : LINES - ARRAY_WAIT;
+  localparam int LATEST_RELEASE = (CANNOT_HOLD != 0) ? LINES - ARRAY_WAIT : LINES;
 
   // Source side. Each line is stored with a flag: its acquisition ends with it.
 
@@ -140,8 +143,17 @@ module dtof_line_buffer #(
   assign rest_ends_o = accepted && behind_q && s_tlast_i;
   assign queued_o = (queued_q != '0);
   assign inside_o = accepted ? !s_tlast_i : behind_q || (source_line_q != '0);
-  assign early_o = (CLOCK_WAITS != 0) && (rest_q
-      || ((source_line_q != '0) ? 16'(source_line_q) < release_i : 32'(release_i) == ACQUISITION_LINES && !starved_o));
+
+  generate
+    if (CLOCK_WAITS != 0) begin : g_early_by_release
+      assign early_o = rest_q
+          || ((source_line_q != '0) ? 16'(source_line_q) < release_i : 32'(release_i) == ACQUISITION_LINES && !starved_o);
+    end else if (CANNOT_HOLD != 0) begin : g_early_unless_starved
+      assign early_o = rest_q || (source_line_q != '0) || !starved_o;
+    end else begin : g_early_in_a_rest
+      assign early_o = rest_q;
+    end
+  endgenerate
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

@@ -20,7 +20,8 @@ from mutation.verdict import MutationError
 ROOT = Path(__file__).resolve().parent.parent.parent
 TREE = [*cpp.TREE, "docs/user/registers.md", "formal", "parameters.toml", "CMakePresets.json"]
 TARGET = "subsystem_test"
-MODELS = "tb_cpp/tests/subsystem/CMakeLists.txt"
+MODELS = "tb_cpp/tests/subsystem/models.cmake"
+TESTS = "tb_cpp/tests/subsystem/CMakeLists.txt"
 PACKAGES = "hdl/common/dtof_pkg.sv"  # the first file that Verilator reads
 LENIENT = ("cmake/verilate.cmake", " -Wall -Wno-SYNCASYNCNET ", " -Wno-lint -Wno-fatal ")
 TIMEOUT_FACTOR = 4  # of the processor time without a mutant, and ten seconds more; what runs longer hangs
@@ -83,7 +84,7 @@ class Build:
         copy_tree(self.tree)
         if models:
             (self.tree / MODELS).write_text(fewer_models((self.tree / MODELS).read_text(), models))
-        change(self.tree / MODELS, "OPTIONS -O1", f"OPTIONS -O{optimise}")
+        change(self.tree / TESTS, "OPTIONS -O1", f"OPTIONS -O{optimise}")
 
     def configure(self) -> None:
         self._run(["cmake", "-S", self.tree, "--preset", "release", "-DDTOF_PYTHON=OFF"])

@@ -19,11 +19,10 @@ constexpr std::uint32_t kLongestWay = 8;   // clocks from a line's acceptance to
 void StreamReference::reset() {
   const std::size_t release = release_;
   const std::size_t lines = acquisition_lines_;
-  const bool clock_waits = clock_waits_;
-  const bool source_waits = source_waits_;
+  const Build build = build_;
   *this = StreamReference(lines, none_);
   release_ = release;
-  set_waits(clock_waits, source_waits);
+  build_ = build;
 }
 
 bool StreamReference::dark(const Line& line) const {
@@ -44,7 +43,7 @@ void StreamReference::take(const Line& line) {
       throw refuse("comes from nowhere");
     }
     Acquisition& acquisition = acquisitions_.front();
-    if (index_ == 0 && !acquisition.ended && !clock_waits_ && waiting_ < release_) {
+    if (index_ == 0 && !acquisition.ended && !build_.clock_waits && waiting_ < offered_from()) {
       throw refuse("is offered too early");
     }
     const bool here = index_ < acquisition.lines.size();
@@ -55,7 +54,7 @@ void StreamReference::take(const Line& line) {
     } else if (!missing_ && !here && acquisition.ended) {
       missing_ = true;
     } else if (!missing_) {
-      if (clock_waits_) {
+      if (build_.clock_waits) {
         throw refuse("is not waited for");
       }
       if (index_ == 0 || acquisition.lines.size() > index_ + kOnItsWay) {
@@ -83,7 +82,7 @@ void StreamReference::take(const Line& line) {
 }
 
 void StreamReference::expect_rest(bool here) const {
-  if (!clock_waits_ || index_ == 0 || missing_ || draining_) {
+  if (!build_.clock_waits || index_ == 0 || missing_ || draining_) {
     throw RtlError("the array's clock rests although no line is late");
   }
   if (here && waiting_ > kOnItsWay) {
@@ -100,7 +99,7 @@ void StreamReference::wait(const Waits& now) {
   const bool here =
       !acquisitions_.empty() &&
       (now.array_rests ? acquisitions_.front().ended || acquisitions_.front().lines.size() > index_
-                       : acquisitions_.front().ended || clock_waits_ || waiting_ >= release_);
+                       : acquisitions_.front().ended || build_.clock_waits || waiting_ >= offered_from());
   withheld_ = (starved_ || now.array_rests) && here ? withheld_ + 1 : 0;
   if (withheld_ > kLongestWay) {
     throw RtlError(fmt::format("an acquisition is here and not offered, {} lines wait", waiting_));
@@ -128,10 +127,11 @@ void StreamReference::wait(const Waits& now) {
   refused_ = stalls_ ? 0 : refused_;
 }
 
-void StreamReference::drop(bool last, std::size_t buffer_lines) {
+void StreamReference::drop(bool last) {
   const bool begun = source_index_ > 0 && !draining_ && index_ > 0 && acquisitions_.size() == 1;
-  if (source_waits_ || hunting_ || begun || waiting_ + 1 < buffer_lines) {
-    throw RtlError(fmt::format("an acquisition is dropped, {} of {} lines wait", waiting_, buffer_lines));
+  if (build_.source_waits || hunting_ || begun || waiting_ + 1 < build_.buffer_lines) {
+    throw RtlError(
+        fmt::format("an acquisition is dropped, {} of {} lines wait", waiting_, build_.buffer_lines));
   }
   lost_lines_ += source_index_ + 1;
   ++lost_acquisitions_;

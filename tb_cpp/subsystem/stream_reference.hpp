@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -36,11 +37,14 @@ class StreamReference {
   /// Resets the reference, including settings that a bench changes between frames.
   void reset();
   void set_release(std::size_t lines) { release_ = lines; }
-  /// Sets the parameters with which the subsystem was built.
-  void set_waits(bool clock_waits, bool source_waits) {
-    clock_waits_ = clock_waits;
-    source_waits_ = source_waits;
-  }
+  /// Parameters with which the subsystem was built.
+  struct Build {
+    bool clock_waits = false;
+    bool source_waits = true;
+    std::size_t buffer_lines = 0;
+    std::size_t slots = 1;
+  };
+  void set_build(const Build& build) { build_ = build; }
   void set_watchdog(std::uint32_t clocks) { watchdog_ = clocks; }
 
   /// The following functions describe one clock at the ports, in this order. take(): the array takes `line`;
@@ -60,9 +64,8 @@ class StreamReference {
   /// The source's line is accepted. `thrown`: in the clock of an abort or a flush, when a source that cannot
   /// wait continues.
   void accept(const Line& line, bool last, bool thrown);
-  /// The line is dropped because the buffer holds `buffer_lines` lines; the rest of its acquisition is
-  /// dropped, too.
-  void drop(bool last, std::size_t buffer_lines);
+  /// The line is dropped because the buffer is full; the rest of its acquisition is dropped, too.
+  void drop(bool last);
   void begin();
   void done();
   void abort();
@@ -85,8 +88,13 @@ class StreamReference {
   [[nodiscard]] bool hunting() const { return hunting_; }
   /// True if it is too early, after `wait`, to ask the source for an acquisition in this clock.
   [[nodiscard]] bool early() const {
-    return clock_waits_ && (rest_ || (source_index_ > 0 ? source_index_ < release_
-                                                        : release_ == acquisition_lines_ && !starved_));
+    if (rest_) {
+      return true;
+    }
+    if (build_.clock_waits) {
+      return source_index_ > 0 ? source_index_ < release_ : release_ == acquisition_lines_ && !starved_;
+    }
+    return cannot_hold() && (source_index_ > 0 || !starved_);
   }
   /// Lines of the source's current acquisition that have arrived.
   [[nodiscard]] std::size_t source_index() const { return source_index_; }
@@ -108,12 +116,20 @@ class StreamReference {
   void empty();
   void expect_rest(bool here) const;
   [[nodiscard]] bool dark(const Line& line) const;
+  /// True if an acquisition neither waits at the source nor fits the buffer.
+  [[nodiscard]] bool cannot_hold() const {
+    return !build_.source_waits && build_.buffer_lines < acquisition_lines_;
+  }
+  /// Lines with which the array is offered an acquisition whose end has not arrived. An acquisition that the
+  /// buffer cannot hold is offered while the lines that come until the array begins find room.
+  [[nodiscard]] std::size_t offered_from() const {
+    return cannot_hold() ? std::min(release_, build_.buffer_lines - (build_.slots - 1)) : release_;
+  }
 
   std::size_t acquisition_lines_;
   Timestamp none_;
   std::size_t release_ = 0;
-  bool clock_waits_ = false;
-  bool source_waits_ = true;
+  Build build_;
   std::uint32_t watchdog_ = 0;
   std::deque<Acquisition> acquisitions_;  // first: the array's current one; the last may be incomplete
   std::size_t waiting_ = 0;

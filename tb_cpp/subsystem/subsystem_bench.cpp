@@ -48,7 +48,10 @@ SubsystemBench::SubsystemBench(const CompiledSubsystem& subsystem, std::uint64_t
   clock_waits_ = (readout & DTOF_READOUT_CLOCK_WAITS_MASK) != 0;
   source_waits_ = (readout & DTOF_READOUT_SOURCE_WAITS_MASK) != 0;
   raster_order_ = (readout & DTOF_READOUT_RASTER_ORDER_MASK) != 0;
-  reference_.set_waits(clock_waits_, source_waits_);
+  reference_.set_build({.clock_waits = clock_waits_,
+                        .source_waits = source_waits_,
+                        .buffer_lines = buffer_lines_,
+                        .slots = static_cast<std::size_t>(configuration_.parameters.slots)});
   written_.release = most_release();
   committed_ = written_;
 }
@@ -134,12 +137,14 @@ void SubsystemBench::run_transfer() {
 }
 
 BusResponse SubsystemBench::read(std::uint32_t offset) {
+  run_transfer();  // of a begin_write
   bus_.read(offset);
   run_transfer();
   return bus_.response();
 }
 
 BusResponse SubsystemBench::write(std::uint32_t offset, std::uint32_t data, std::uint8_t strobe) {
+  run_transfer();  // of a begin_write
   bus_.write(offset, data, strobe);
   if (offset == DTOF_SHOT_SEED) {
     shot_reference_.set_seed(data);  // valid in a clock of the transfer
@@ -333,7 +338,7 @@ void SubsystemBench::observe_lines() {
     now.inside = !last;
     now.dropped = dropped;
     if (dropped) {
-      reference_.drop(last, buffer_lines_);
+      reference_.drop(last);
     } else {
       reference_.accept(*line, last, thrown);
     }

@@ -80,7 +80,7 @@ class SubsystemBench {
   void clock();
   void clocks(std::uint64_t count);
   /// Runs until `frames` more frames were received. Throws RtlError after `limit` clocks.
-  void wait_for_frames(std::size_t frames, std::uint64_t limit = 200000);
+  void wait_for_frames(std::size_t frames, std::uint64_t limit = 1000000);
 
   BusResponse read(std::uint32_t offset);
   BusResponse write(std::uint32_t offset, std::uint32_t data, std::uint8_t strobe = RegisterBus::kAllBytes);

@@ -2,6 +2,7 @@
 // The C driver on the Verilated subsystem.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "dtof.h"
@@ -253,7 +254,8 @@ TEST_P(Driver, ReadsRawHistograms) {
   CounterRandom random = this->random(21);
   const RtlConfiguration& configuration = bench_.configuration();
   const int rows = configuration.pixels_per_sram;
-  for (const auto& [first, last] : {std::pair(0, rows - 1), std::pair(1, 2), std::pair(rows - 1, rows - 1)}) {
+  for (const auto& [first, last] :
+       {std::pair(0, rows - 1), std::pair(1, std::min(2, rows - 1)), std::pair(rows - 1, rows - 1)}) {
     const FrameSettings settings{.acquisitions = 20,
                                  .gate = {0, configuration.parameters.no_detection()},
                                  .weak_below = 0,
@@ -311,7 +313,7 @@ TEST_P(Driver, StopsContinuousFramesAndTakesErrors) {
   EXPECT_EQ(dtof_flush(&device_), DTOF_BUSY);
   bench_.wait_for_frames(3);
   ASSERT_EQ(dtof_stop(&device_), DTOF_OK);
-  bench_.clocks(5000);
+  bench_.clocks(100000);
   ASSERT_EQ(dtof_busy(&device_, &busy), DTOF_OK);
   EXPECT_FALSE(busy);
   std::uint32_t errors = 1;

@@ -289,7 +289,7 @@ TEST_P(SelfTest, IsIgnoredDuringAFrameAndWhileWordsWait) {
   bench_.clocks(bench_.source_waits() ? 0 : 2000);
   for (int acquisition = 0; acquisition < 2; ++acquisition) {
     push_lines(bench_, make_lines(configuration(), 1, random));
-    bench_.clocks(bench_.source_waits() ? 0 : 500);
+    bench_.clocks(bench_.source_waits() ? 0 : 2000);
   }
   if (raster()) {  // the array's frame ends, and its words wait
     ASSERT_NO_FATAL_FAILURE(wait_until_idle());

@@ -217,7 +217,7 @@ TEST_P(ShortWords, EndAsAbortedInTheirOwnKind) {
       bench_.clock();
     }
     bench_.sink().blocked = true;
-    bench_.clocks(300);
+    bench_.clocks(10000);
     EXPECT_TRUE(bench_.frames().size() > begun || (short_words && words % 2 == 0))
         << "the next frame has begun";
     const std::size_t aborted = bench_.sink().aborted();
