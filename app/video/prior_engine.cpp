@@ -3,12 +3,50 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/parallel.hpp"
+#include "dtof/readout/model.hpp"
+#include "dtof/readout/pixelwise_model.hpp"
 
 namespace dtof {
+namespace {
+
+/// Columns of an engine that begins from `prior` and leaves the next frame's prior there.
+class PriorModel final : public ReadoutModel {
+ public:
+  PriorModel(const ReadoutParameters& parameters, std::vector<PoolPrior>& prior)
+      : np_(parameters.np), numbers_(pool_pointer_parameters(parameters)), prior_(&prior) {}
+
+  [[nodiscard]] std::vector<PixelResult> run_column(const ColumnStream& column,
+                                                    std::uint32_t acquisitions) override {
+    return std::move(run_columns(
+                         1, [&](int) -> const ColumnStream& { return column; }, acquisitions)
+                         .front());
+  }
+
+  [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(int count, const ColumnReader& column,
+                                                                  std::uint32_t acquisitions) override {
+    return run_pool_pointer(count, column, np_, acquisitions, numbers_, prior_);
+  }
+
+  void run_sampled_column(PixelSampler& /*sampler*/, int /*column*/, std::uint32_t /*acquisitions*/,
+                          std::span<PixelResult> /*results*/) override {
+    throw InputError("a prior needs whole streams");
+  }
+
+ private:
+  int np_;
+  PoolNumbers numbers_;
+  std::vector<PoolPrior>* prior_;
+};
+
+}  // namespace
 
 ReadoutRun PriorEngine::read(const StreamSource& source, const ReadoutParameters& parameters,
                              const Region& region) const {
@@ -28,12 +66,16 @@ ReadoutRun PriorEngine::read(const StreamSource& source, const ReadoutParameters
     const std::size_t count = std::min(together, width - first);
     ColumnStream stream;
     std::vector<PoolPrior> prior = {std::move((*priors_)[engine])};
-    const auto results = run_pool_pointer(
+    std::unique_ptr<ReadoutModel> model = std::make_unique<PriorModel>(parameters, prior);
+    if (parameters.time_gate) {
+      model = make_gated_model(parameters, std::move(model));
+    }
+    const auto results = model->run_columns(
         static_cast<int>(count),
         [&](int column) -> const ColumnStream& {
           return stream = source.column(static_cast<int>(first) + column);
         },
-        parameters.np, source.acquisitions(), pool_pointer_parameters(parameters), &prior);
+        source.acquisitions());
     (*priors_)[engine] = std::move(prior.front());
     for (std::size_t column = 0; column < count; ++column) {
       for (std::size_t row = 0; row < rows; ++row) {

@@ -177,6 +177,40 @@ TEST(PriorEngine, EachEngineBeginsFromItsOwnLastFrame) {
   }
 }
 
+TEST(PriorEngine, HasTheTimeGate) {
+  const SensorModel sensor = short_sensor();
+  ReadoutParameters pool = default_parameters(Readout::kPoolPointer, sensor);
+  const PhotonSource source(sensor, make_scene(Scene::kRoom, {.columns = 6, .rows = 8}), 30.0, 1);
+  const auto read = [&] {
+    std::vector<PoolPrior> priors;
+    return PriorEngine(priors, 1).read(source, pool, Region::whole(6, 8)).results;
+  };
+  const std::vector<PixelResult> without = read();
+  pool.time_gate = CodeGate{100, 300};
+  const std::vector<PixelResult> gated = read();
+  EXPECT_NE(gated, without);
+  ColumnStream kept;
+  const auto column = [&](int index) -> const ColumnStream& {
+    kept.clear();
+    const ColumnStream all = source.column(index);
+    for (int row = 0; row < all.rows(); ++row) {
+      for (const Detection& detection : all.row(row)) {
+        if (pool.time_gate->contains(detection.timestamp)) {
+          kept.append(detection);
+        }
+      }
+      kept.finish_row();
+    }
+    return kept;
+  };
+  std::vector<PoolPrior> priors;
+  const auto expected =
+      run_pool_pointer(6, column, sensor.np, sensor.acquisitions, pool_pointer_parameters(pool), &priors);
+  for (std::size_t i = 0; i < gated.size(); ++i) {
+    EXPECT_EQ(gated[i], expected[i % 6][i / 6]);
+  }
+}
+
 TEST(PriorEngine, RefusesWhatLeavesNothingForTheNextFrame) {
   const SensorModel sensor = short_sensor();
   std::vector<PoolPrior> priors;

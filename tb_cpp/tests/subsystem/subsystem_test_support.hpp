@@ -200,13 +200,21 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
   std::vector<ColumnStream> streams;
   std::vector<std::vector<std::vector<PixelResult>>> histograms;  // bins of a raw frame: [column][row][bin]
   const bool raw = settings.raw && configuration.raw_histogram;
+  const bool has_prior = priors != nullptr && parameters.pool.prior;
+  // The model with a prior has no gate of its own.
+  const auto passes = [&](Timestamp code) {
+    return !has_prior || !parameters.time_gate || parameters.time_gate->contains(code);
+  };
   for (std::size_t column = 0; column < static_cast<std::size_t>(configuration.sram_num); ++column) {
     const bool enabled = settings.enabled.empty() || settings.enabled[column];
     ColumnStream stream;
     for (std::size_t row = 0; row < rows; ++row) {
       for (std::size_t i = row * slots; enabled && i < lines.size(); i += rows * slots) {
         for (std::size_t slot = 0; slot < slots; ++slot) {
-          stream.append({static_cast<std::uint32_t>(i / (rows * slots)), lines[i + slot][column]});
+          const Timestamp code = lines[i + slot][column];
+          if (passes(code)) {
+            stream.append({static_cast<std::uint32_t>(i / (rows * slots)), code});
+          }
         }
       }
       stream.finish_row();
@@ -242,7 +250,7 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
     return expected;
   }
   std::vector<std::vector<PixelResult>> results;
-  if (priors != nullptr && parameters.pool.prior) {
+  if (has_prior) {
     if (!settings.prior) {
       priors->clear();
     }
