@@ -257,7 +257,8 @@ dtof_status dtof_pixel_at(const dtof_device *device, size_t index, uint16_t *row
 
 /* Unpacks a word with amplitude and ambient. Row and column of the result, which it does not have, stay as
  * they are. For the word of a second target, pass the result that the word before has filled: DTOF_STREAM if
- * amplitude or ambient of the two words differ. DTOF_ABORTED if the word marks an aborted frame. */
+ * amplitude or ambient of the two words differ. DTOF_STREAM also if the word is no result, DTOF_ABORTED if it
+ * marks an aborted frame. */
 dtof_status dtof_unpack_amplitude(uint64_t word, dtof_result *result);
 
 /* Unpacks a frame of words with amplitude and ambient as dtof_unpack_frame does. The order of the words gives

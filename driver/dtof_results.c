@@ -101,10 +101,16 @@ dtof_status dtof_pixel_at(const dtof_device *device, size_t index, uint16_t *row
 }
 
 dtof_status dtof_unpack_amplitude(uint64_t word, dtof_result *result) {
+  /* A result has at least one of these bits. */
+  const uint64_t status =
+      DTOF_RESULT_VALID_MASK | DTOF_RESULT_WEAK_MASK | DTOF_RESULT_EMPTY_MASK | DTOF_RESULT_MASKED_MASK;
   uint16_t amplitude = (uint16_t)FIELD(word, DTOF_AMPLITUDE_RESULT_AMPLITUDE);
   uint16_t ambient = (uint16_t)FIELD(word, DTOF_AMPLITUDE_RESULT_AMBIENT);
   if (FIELD(word, DTOF_RESULT_ABORTED) != 0) {
     return DTOF_ABORTED;
+  }
+  if ((word & status) == 0) {
+    return DTOF_STREAM;
   }
   if (FIELD(word, DTOF_RESULT_SECOND) != 0) {
     result->has_second = true;

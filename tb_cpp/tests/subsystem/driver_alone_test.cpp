@@ -347,6 +347,8 @@ TEST(DriverAlone, TakesAmplitudesOfWholeFrames) {
   EXPECT_EQ(unpack({words[0], DTOF_RESULT_ABORTED_MASK, words[0]}), DTOF_ABORTED)
       << "a word of the next frame after it";
   EXPECT_EQ(unpack({words[0], words[1], words[2] | DTOF_RESULT_RAW_MASK}), DTOF_STREAM) << "a raw word";
+  EXPECT_EQ(unpack({words[0], words[1], 0}), DTOF_STREAM) << "a word that never came";
+  EXPECT_EQ(unpack({0, 0, 0}), DTOF_STREAM) << "memory that no word was written to";
   EXPECT_EQ(unpack({words[0], words[1] | DTOF_RESULT_SECOND_MASK, words[2]}), DTOF_STREAM)
       << "a second target of one pixel";
   const auto second = [&](std::size_t i) { return DTOF_RESULT_SECOND_MASK | (words[i] + 10); };
