@@ -49,8 +49,8 @@ def draw(random: Random, readout: str, pool: bool, columns: int, rows: int) -> s
 
     if pool:
         words.append(f"ENGINE_COLUMNS {random.choice([2, 4])}")
-        for parameter in ("SECOND_TARGET", "AMPLITUDE", "RASTER_ORDER"):
-            maybe(f"{parameter} 1")
+        maybe("SECOND_TARGET 1")
+        maybe(random.choice(["AMPLITUDE 1", "RASTER_ORDER 1"]), 0.7)  # a raster buffer has no room for amplitudes
         if readout != "poolpointer-lean":  # whose words have no room for a prior
             maybe("PRIOR 1")
     elif readout not in WITHOUT_HISTOGRAM:

@@ -42,6 +42,8 @@ class Draws(unittest.TestCase):
             pool = "READOUT poolpointer" in one
             self.assertEqual("ENGINE_COLUMNS" in one, pool, one)
             self.assertFalse(pool and "RAW_HISTOGRAM" in one, one)
+            self.assertFalse("AMPLITUDE" in one and "RASTER_ORDER" in one, one)
+            self.assertFalse("poolpointer-lean" in one and "PRIOR" in one, one)
 
 
 class CommandLine(unittest.TestCase):
