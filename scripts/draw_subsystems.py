@@ -12,8 +12,11 @@ from __future__ import annotations
 import argparse
 import sys
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from random import Random
+
+from dtof_synth import program
 
 ROOT = Path(__file__).resolve().parent.parent
 WITHOUT_HISTOGRAM = ("ezpointer", "pifh")  # RAW_HISTOGRAM has no effect there
@@ -84,7 +87,7 @@ def drawn(seed: int, count: int) -> list[str]:
     return found
 
 
-def main(arguments: list[str]) -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description="Draws small subsystems with legal parameters.")
     parser.add_argument("--seed", type=int, default=1, help="at least 0")
     parser.add_argument("--count", type=int, default=12, help=f"number of subsystems, 1 to {MOST}")
@@ -99,4 +102,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    program.run(main)
