@@ -20,7 +20,7 @@ from dtof_synth import program
 
 ROOT = Path(__file__).resolve().parent.parent
 WITHOUT_HISTOGRAM = ("ezpointer", "pifh")  # RAW_HISTOGRAM has no effect there
-SLOW = ("histogram", "pifh")  # a frame that fills a counter has 2^NP, or 2^(NP - NB), passes or bins
+SLOW = ("histogram", "pifh")  # their scans grow with 2^NP, and the tests fill a counter
 MOST_REGISTERS = 8  # lines; a longer buffer is an SRAM (dtof_line_path)
 MOST = 60  # subsystems: more have no size of their own
 
